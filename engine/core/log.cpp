@@ -1,0 +1,92 @@
+#include "core/log.hpp"
+
+#include <spdlog/logger.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace dioptre {
+
+namespace {
+
+std::atomic<bool> progressShown{false};  // an unfinished line stands on the terminal
+
+spdlog::logger& logger() {
+    static const std::unique_ptr<spdlog::logger> instance = [] {
+        auto made = std::make_unique<spdlog::logger>("dioptre", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+        made->set_pattern("%v");
+        made->flush_on(spdlog::level::trace);
+        return made;
+    }();
+    return *instance;
+}
+
+void log(spdlog::level::level_enum level, std::string_view prefix, std::string_view message) {
+    if (!logger().should_log(level)) return;
+    if (progressShown.exchange(false)) std::fputs("\r\033[K", stderr);
+    std::string line(prefix);
+    line += message;
+    logger().log(level, spdlog::string_view_t(line.data(), line.size()));
+}
+
+}  // namespace
+
+void setLogLevel(LogLevel level) {
+    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
+                                                     spdlog::level::err};
+    logger().set_level(kLevels[static_cast<int>(level)]);
+}
+
+void logToFile(const std::filesystem::path& file) {
+    requireWritableName(file);
+    try {
+        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
+        sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %v");
+        logger().sinks().push_back(std::move(sink));
+    } catch (const spdlog::spdlog_ex& e) {
+        throw InputError(file.string() + ": cannot be opened as log file: " + e.what());
+    }
+}
+
+void logDebug(std::string_view message) {
+    log(spdlog::level::debug, "debug: ", message);
+}
+void logInfo(std::string_view message) {
+    log(spdlog::level::info, "", message);
+}
+void logWarning(std::string_view message) {
+    log(spdlog::level::warn, "warning: ", message);
+}
+void logError(std::string_view message) {
+    log(spdlog::level::err, "error: ", message);
+}
+
+ProgressLine::ProgressLine(std::string label, std::size_t total)
+    : label_(std::move(label)), total_(total), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() {
+    if (terminal_ && progressShown.exchange(false)) std::fputc('\n', stderr);
+}
+
+void ProgressLine::update(std::size_t done) {
+    if (!logger().should_log(spdlog::level::info)) return;
+    if (terminal_) {
+        std::fprintf(stderr, "\r\033[K%s %zu/%zu", label_.c_str(), done, total_);
+        progressShown = true;
+        return;
+    }
+    const std::size_t tenths = total_ == 0 ? 10 : done * 10 / total_;
+    if (tenths <= shownTenths_) return;
+    shownTenths_ = tenths;
+    std::fprintf(stderr, "%s %zu/%zu\n", label_.c_str(), done, total_);
+}
+
+}  // namespace dioptre
