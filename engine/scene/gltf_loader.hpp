@@ -1,0 +1,44 @@
+// glTF 2.0 files (.gltf with its buffers and images beside it or inside it, and .glb) as a Scene.
+// Source: Khronos glTF 2.0 specification. Files are taken as hostile: each number is checked before it is used.
+//
+// Read: the node tree of the default scene (the first if none is named; all roots if there are no scenes), triangles,
+// strips and fans with or without indices, base colour, metallic-roughness, normal and emissive textures (PNG, JPEG),
+// alpha masks, perspective cameras, sparse, interleaved and normalised accessors, KHR_lights_punctual,
+// KHR_materials_unlit, KHR_materials_emissive_strength, KHR_mesh_quantization.
+// Made up: missing normals are flat ones (vertices unshared, given tangents dropped); a zero normal becomes that of its
+// faces; missing tangents come from the texture coordinates when the material has a normal map. A mesh no node of the
+// scene uses, and an image no drawn texture uses, is not kept.
+// Named in Scene::warnings and left out: points, lines, orthographic cameras, vertex colours, a second set of texture
+// coordinates in one material, texture transforms, skins, animations, morph targets, optional extensions not known
+// here. Drawn otherwise, with a warning: alpha BLEND as MASK at 0.5.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+#include "scene/scene.hpp"
+
+namespace dioptre {
+
+/// How much a file may ask for; beyond it, loading stops with an InputError that names the element and the limit.
+struct LoadLimits {
+    std::uint64_t maxFileBytes = 2ull << 30;   // any one file: the scene, a buffer, an image
+    std::uint64_t maxImageBytes = 2ull << 30;  // all images together, decoded to 4 bytes a texel
+    std::uint64_t maxTotalBytes = 6ull << 30;  // at any time: files read, images decoded, vertices and indices
+    int maxImageSide = 16384;                  // texels
+    int maxNodeDepth = 512;                    // a root has depth 1
+    std::uint64_t maxJsonValues = 16'000'000;  // about 100 bytes of memory each
+    int maxJsonDepth = 128;                    // arrays and objects inside one another
+    std::size_t maxWarnings = 100;             // the rest is counted in one last line
+};
+
+/// Loads the file; peak memory is about that of the file plus that of the scene.
+/// Throws InputError, one line that starts with the file's name and names the element, the value and the limit:
+/// `scene.glb: meshes[3].primitives[0].indices: accessor 12 reads 4096 bytes past bufferView 5 (800 bytes)`.
+/// Buffers and images must lie inside the scene's folder, links resolved; of all schemes only `data:` is followed.
+/// Names are UTF-8: an instance, camera or light has that of its node, or else its own; the scene its own or the file's.
+/// An instance keeps a matrix that mirrors (negative determinant): who draws it flips the winding.
+Scene loadGltf(const std::filesystem::path& path, const LoadLimits& limits = {});
+
+}  // namespace dioptre

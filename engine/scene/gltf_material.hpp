@@ -1,0 +1,23 @@
+// Materials with their textures, samplers and images. Internal to the glTF loader.
+#pragma once
+
+#include "scene/gltf_accessor.hpp"
+
+namespace dioptre::gltf {
+
+/// What a material asks of the vertices it is put on.
+struct MaterialNeeds {
+    bool uv = false;          // has a texture
+    bool tangent = false;     // has a normal map
+    std::uint64_t uvSet = 0;  // which TEXCOORD_n it reads
+};
+
+struct Materials {
+    std::vector<Material> materials;   // as in the file; the default material is the last one
+    std::vector<MaterialNeeds> needs;  // of each material
+    std::vector<TextureImage> images;  // those that are drawn
+};
+
+Materials readMaterials(const Element& root, const Accessors& accessors);
+
+}  // namespace dioptre::gltf

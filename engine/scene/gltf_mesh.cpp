@@ -1,0 +1,303 @@
+#include "scene/gltf_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/vertex_frame.hpp"
+
+namespace dioptre::gltf {
+namespace {
+
+constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+
+bool declares(const Element& root, std::string_view extension) {
+    const List used = root.list("extensionsUsed");
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used.text(i) == extension) return true;
+    return false;
+}
+
+std::uint32_t restartValue(ComponentType type) {
+    switch (type) {
+        case ComponentType::unsignedByte:
+            return 0xFF;
+        case ComponentType::unsignedShort:
+            return 0xFFFF;
+        default:
+            return 0xFFFFFFFF;
+    }
+}
+
+std::size_t triangleCount(std::uint64_t mode, std::size_t corners) {
+    if (mode == kTriangles) return corners / 3;
+    return corners < 3 ? 0 : corners - 2;
+}
+
+// glTF 2.0, 3.7.2.1: the corners of triangle i in a strip or fan, wound as the first.
+std::vector<std::uint32_t> asTriangles(std::uint64_t mode, std::vector<std::uint32_t> corners) {
+    const std::size_t count = triangleCount(mode, corners.size());
+    if (mode == kTriangles) {
+        corners.resize(count * 3);
+        return corners;
+    }
+    std::vector<std::uint32_t> out;
+    out.reserve(count * 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (mode == kStrip)
+            out.insert(out.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
+        else
+            out.insert(out.end(), {corners[i + 1], corners[i + 2], corners[0]});
+    }
+    return out;
+}
+
+void checkFinite(const std::vector<float>& values, std::size_t components, const Accessor& accessor,
+                 const Element& owner, std::string_view key) {
+    if (accessor.component != ComponentType::floating) return;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isfinite(values[i]))
+            owner.fail(key, fmt::format("element {} is {}, must be finite", i / components, values[i]));
+}
+
+// The declared extent, in the units of the data read.
+void checkDeclaredBounds(const Accessor& accessor, const Bounds& bounds, const Element& owner, std::string_view key) {
+    if (accessor.min.empty() || accessor.max.empty()) return;
+    float scale = 1.0f, lowest = std::numeric_limits<float>::lowest();
+    if (accessor.normalized && accessor.component != ComponentType::floating) {
+        const bool isSigned =
+            accessor.component == ComponentType::byte || accessor.component == ComponentType::shortInt;
+        const int bits = static_cast<int>(sizeOf(accessor.component)) * 8 - (isSigned ? 1 : 0);
+        lowest = -1.0f;
+        scale = 1.0f / (std::exp2(static_cast<float>(bits)) - 1.0f);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const float low = std::max(accessor.min[static_cast<std::size_t>(i)] * scale, lowest);
+        const float high = accessor.max[static_cast<std::size_t>(i)] * scale;
+        // Text with six digits is not off.
+        const float tolerance = 1e-5f * std::max(std::abs(bounds.min[i]), std::abs(bounds.max[i]));
+        const float lowOff = std::abs(low - bounds.min[i]), highOff = std::abs(high - bounds.max[i]);
+        if (!(lowOff <= tolerance && highOff <= tolerance))
+            return owner.warn(key, "min or max is not that of the data");
+    }
+}
+
+}  // namespace
+
+struct MeshReader::Plan {
+    std::uint64_t mode = kTriangles;
+    std::size_t material = 0;
+    MaterialNeeds needs;
+    std::optional<std::size_t> indices, position, normal, tangent, uv;  // accessors
+    std::string uvName;                                                 // "TEXCOORD_0"
+    std::size_t vertexCount = 0, cornerCount = 0;
+    bool drawn = false;
+};
+
+MeshReader::MeshReader(const Element& root, const Accessors& accessors, const Materials& materials)
+    : meshes_(root.list("meshes")),
+      accessors_(accessors),
+      materials_(materials),
+      quantized_(declares(root, "KHR_mesh_quantization")) {
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+        const List primitives = meshes_[m].list("primitives");
+        for (std::size_t p = 0; p < primitives.size(); ++p) warnOfOmissions(primitives[p], plan(primitives[p]));
+    }
+}
+
+void MeshReader::checkAttribute(const Element& attributes, const std::string& semantic, const Accessor& a) const {
+    const bool isUv = semantic.starts_with("TEXCOORD_");
+    const std::string_view type = isUv ? "VEC2" : semantic == "TANGENT" ? "VEC4" : "VEC3";
+    const bool small = sizeOf(a.component) < 4;
+    const bool isSigned = a.component == ComponentType::byte || a.component == ComponentType::shortInt;
+    const bool plain = a.component == ComponentType::floating || (isUv && small && !isSigned && a.normalized);
+    const bool quantized = small && (isUv || semantic == "POSITION" || (isSigned && a.normalized));
+    if (a.type != type) attributes.fail(semantic, fmt::format("is {}, must be {}", a.type, type));
+    if (plain || (quantized && quantized_)) return;
+    const std::string_view normalized = a.normalized ? "normalized " : "";
+    if (quantized)
+        attributes.fail(semantic, fmt::format("is {}{}, which needs KHR_mesh_quantization in extensionsUsed",
+                                              normalized, nameOf(a.component)));
+    attributes.fail(semantic, fmt::format("is {}{}, must be FLOAT{}", normalized, nameOf(a.component),
+                                          isUv ? ", normalized UNSIGNED_BYTE or UNSIGNED_SHORT" : ""));
+}
+
+MeshReader::Plan MeshReader::plan(const Element& primitive) const {
+    Plan plan;
+    plan.mode = primitive.whole("mode", kTriangles);
+    if (plan.mode > kFan) primitive.fail("mode", fmt::format("is {}, must be 0 to 6", plan.mode));
+    const std::size_t fileMaterials = materials_.materials.size() - 1;
+    plan.material = primitive.index("material", fileMaterials, "materials").value_or(fileMaterials);
+    plan.needs = materials_.needs[plan.material];
+    plan.uvName = fmt::format("TEXCOORD_{}", plan.needs.uvSet);
+    planAttributes(primitive.object("attributes"), plan);
+    planIndices(primitive, plan);
+    plan.drawn = plan.position && plan.mode >= kTriangles && triangleCount(plan.mode, plan.cornerCount) > 0;
+    return plan;
+}
+
+void MeshReader::planAttributes(const Element& attributes, Plan& plan) const {
+    for (const auto& [semantic, value] : attributes.json().items()) {
+        const std::size_t number = attributes.requiredIndex(semantic, accessors_.size(), "accessors");
+        const Accessor& accessor = accessors_.use(number, attributes.pathOf(semantic));
+        if (plan.vertexCount == 0) plan.vertexCount = static_cast<std::size_t>(accessor.count);
+        if (accessor.count != plan.vertexCount)
+            attributes.fail(semantic,
+                            fmt::format("has {} elements, another attribute {}", accessor.count, plan.vertexCount));
+        if (semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" ||
+            semantic.starts_with("TEXCOORD_"))
+            checkAttribute(attributes, semantic, accessor);
+        if (semantic == "POSITION") plan.position = number;
+        if (semantic == "NORMAL") plan.normal = number;
+        if (semantic == "TANGENT") plan.tangent = number;
+        if (semantic == plan.uvName) plan.uv = number;
+    }
+}
+
+void MeshReader::planIndices(const Element& primitive, Plan& plan) const {
+    plan.cornerCount = plan.vertexCount;
+    plan.indices = primitive.index("indices", accessors_.size(), "accessors");
+    if (!plan.indices) return;
+    const Accessor& accessor = accessors_.use(*plan.indices, primitive.pathOf("indices"));
+    const bool isUnsigned = accessor.component == ComponentType::unsignedByte ||
+                            accessor.component == ComponentType::unsignedShort ||
+                            accessor.component == ComponentType::unsignedInt;
+    if (accessor.type != "SCALAR" || !isUnsigned || accessor.normalized)
+        primitive.fail("indices",
+                       fmt::format("is {}{} {}, must be unsigned SCALAR", accessor.normalized ? "normalized " : "",
+                                   nameOf(accessor.component), accessor.type));
+    plan.cornerCount = static_cast<std::size_t>(accessor.count);
+}
+
+void MeshReader::warnOfOmissions(const Element& primitive, const Plan& plan) const {
+    const Element attributes = primitive.object("attributes");
+    for (const auto& [semantic, value] : attributes.json().items()) {
+        if (semantic.starts_with("COLOR_")) attributes.warn(semantic, "vertex colour is ignored");
+        if (semantic.starts_with("TEXCOORD_") && semantic != plan.uvName)
+            attributes.warn(semantic, "a second set of texture coordinates is ignored");
+    }
+    if (!plan.position) primitive.warn("has no POSITION: not drawn");
+    if (plan.mode < kTriangles) primitive.warn("mode", plan.mode == 0 ? "points are not drawn" : "lines are not drawn");
+    if (plan.mode >= kTriangles && triangleCount(plan.mode, plan.cornerCount) == 0)
+        primitive.warn("has no whole triangle: not drawn");
+    if (plan.drawn && plan.mode == kTriangles && plan.cornerCount % 3 != 0)
+        primitive.warn("the last triangle is incomplete and left out");
+    if (plan.drawn && plan.needs.uv && !plan.uv) attributes.warn(plan.uvName, "is missing: textures are read at 0, 0");
+    if (!primitive.list("targets").empty()) primitive.warn("targets", "morph targets are ignored");
+}
+
+Mesh MeshReader::read(std::size_t i) const {
+    const Element element = meshes_[i];
+    Mesh mesh;
+    mesh.name = element.text("name").value_or("");
+    const List primitives = element.list("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p)
+        if (auto primitive = readPrimitive(primitives[p])) mesh.primitives.push_back(std::move(*primitive));
+    return mesh;
+}
+
+std::optional<Primitive> MeshReader::readPrimitive(const Element& element) const {
+    const Plan plan = this->plan(element);
+    if (!plan.drawn) return std::nullopt;
+    Context& context = element.context();
+    const Element attributes = element.object("attributes");
+    if (plan.vertexCount > std::numeric_limits<std::uint32_t>::max())
+        attributes.fail("POSITION", fmt::format("has {} elements, the limit is 2^32 - 1", plan.vertexCount));
+
+    // All that is allocated below, before it is. What passes: an attribute being read or the sums of computeTangents,
+    // and the corners of strips.
+    constexpr std::uint64_t kPassingBytes = 6 * sizeof(double);
+    const std::uint64_t triangles = triangleCount(plan.mode, plan.cornerCount);
+    const std::uint64_t kept = plan.vertexCount * sizeof(Vertex) + triangles * 3 * sizeof(std::uint32_t);
+    const std::uint64_t passing = plan.vertexCount * kPassingBytes + plan.cornerCount * sizeof(std::uint32_t);
+    context.charge(kept + passing, element.path());
+
+    Primitive primitive;
+    primitive.material = static_cast<int>(plan.material);
+    readIndices(plan, element, primitive);
+    readVertices(plan, attributes, primitive);
+    if (plan.normal) {
+        readNormals(plan, attributes, primitive);
+    } else {
+        context.charge(triangles * 3 * (sizeof(Vertex) + kPassingBytes), element.path());
+        makeFlat(primitive);
+        context.release(plan.vertexCount * sizeof(Vertex));
+    }
+    readTangents(plan, attributes, primitive);
+    if (!plan.normal) context.release(triangles * 3 * kPassingBytes);
+    context.release(passing);
+    return primitive;
+}
+
+void MeshReader::readIndices(const Plan& plan, const Element& element, Primitive& out) const {
+    std::vector<std::uint32_t> corners;
+    if (plan.indices) {
+        corners = accessors_.integers(*plan.indices, element.pathOf("indices"));
+        const std::uint32_t restart = restartValue(accessors_.use(*plan.indices, "").component);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            if (corners[i] == restart)
+                element.fail("indices", fmt::format("index {} is {}, the primitive restart value", i, restart));
+            if (corners[i] >= plan.vertexCount)
+                element.fail("indices",
+                             fmt::format("index {} is {}, but there are {} vertices", i, corners[i], plan.vertexCount));
+        }
+    } else {
+        corners.resize(plan.vertexCount);
+        for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+    }
+    out.indices = asTriangles(plan.mode, std::move(corners));
+}
+
+void MeshReader::readVertices(const Plan& plan, const Element& attributes, Primitive& out) const {
+    out.vertices.resize(plan.vertexCount);
+    const Accessor& accessor = accessors_.use(*plan.position, "");
+    const std::vector<float> positions = accessors_.floats(*plan.position, attributes.pathOf("POSITION"));
+    checkFinite(positions, 3, accessor, attributes, "POSITION");
+    for (std::size_t i = 0; i < plan.vertexCount; ++i) {
+        out.vertices[i].position = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+        out.bounds.add(out.vertices[i].position);
+    }
+    checkDeclaredBounds(accessor, out.bounds, attributes, "POSITION");
+    if (!plan.uv) return;
+    const std::vector<float> uvs = accessors_.floats(*plan.uv, attributes.pathOf(plan.uvName));
+    checkFinite(uvs, 2, accessors_.use(*plan.uv, ""), attributes, plan.uvName);
+    for (std::size_t i = 0; i < plan.vertexCount; ++i) out.vertices[i].uv = {uvs[2 * i], uvs[2 * i + 1]};
+}
+
+void MeshReader::readNormals(const Plan& plan, const Element& attributes, Primitive& out) const {
+    const std::vector<float> normals = accessors_.floats(*plan.normal, attributes.pathOf("NORMAL"));
+    checkFinite(normals, 3, accessors_.use(*plan.normal, ""), attributes, "NORMAL");
+    std::vector<bool> missing;
+    for (std::size_t i = 0; i < plan.vertexCount; ++i) {
+        // In double precision, where no finite float's square overflows or vanishes.
+        const glm::dvec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
+        const double length = glm::length(normal);
+        if (length > 0.0) {
+            out.vertices[i].normal = glm::vec3(normal / length);
+        } else {
+            missing.resize(plan.vertexCount);
+            missing[i] = true;
+        }
+    }
+    if (missing.empty()) return;
+    attributes.warn("NORMAL", "zero normals are replaced by those of the faces");
+    fillNormals(out, missing);
+}
+
+void MeshReader::readTangents(const Plan& plan, const Element& attributes, Primitive& out) const {
+    if (!plan.needs.tangent) return;
+    if (!plan.tangent || !plan.normal) return computeTangents(out);
+    const std::vector<float> tangents = accessors_.floats(*plan.tangent, attributes.pathOf("TANGENT"));
+    checkFinite(tangents, 4, accessors_.use(*plan.tangent, ""), attributes, "TANGENT");
+    for (std::size_t i = 0; i < plan.vertexCount; ++i) {
+        const glm::dvec3 tangent(tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2]);
+        const double length = glm::length(tangent);
+        if (!(length > 0.0)) attributes.warn("TANGENT", "zero tangents are replaced");
+        const glm::vec3 unit = length > 0.0 ? glm::vec3(tangent / length) : anyOrthogonal(out.vertices[i].normal);
+        out.vertices[i].tangent = glm::vec4(unit, tangents[4 * i + 3] < 0.0f ? -1.0f : 1.0f);
+    }
+}
+
+}  // namespace dioptre::gltf

@@ -1,0 +1,132 @@
+// A scene as plain data, ready for upload: what the glTF loader fills and the renderer reads.
+// Right-handed, y up, metres; colours linear unless a field says sRGB. No GL, no glTF types.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dioptre {
+
+/// Axis-aligned box; empty while min > max.
+struct Bounds {
+    glm::vec3 min{std::numeric_limits<float>::max()};
+    glm::vec3 max{std::numeric_limits<float>::lowest()};
+
+    bool empty() const { return min.x > max.x; }
+    void add(const glm::vec3& p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    glm::vec3 centre() const { return (min + max) * 0.5f; }
+    glm::vec3 size() const { return max - min; }
+};
+
+/// Decoded texels, 4 channels of 8 bits, row 0 on top.
+struct TextureImage {
+    std::string name;
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+enum class Wrap { repeat, mirroredRepeat, clampToEdge };
+enum class Filter { nearest, linear, nearestMipNearest, linearMipNearest, nearestMipLinear, linearMipLinear };
+
+struct Sampler {
+    Wrap wrapS = Wrap::repeat, wrapT = Wrap::repeat;
+    Filter magnification = Filter::linear, minification = Filter::linearMipLinear;
+
+    bool operator==(const Sampler&) const = default;
+};
+
+/// An image read through a sampler; `image` indexes Scene::images, -1 means "no texture".
+struct TextureSlot {
+    int image = -1;
+    Sampler sampler;
+
+    bool used() const { return image >= 0; }
+    bool operator==(const TextureSlot&) const = default;
+};
+
+enum class AlphaMode { opaque, mask };
+
+struct Material {
+    std::string name;
+    glm::vec4 baseColor{1.0f};        // linear, times the sRGB base colour texture
+    float metallic = 1.0f;            // times the texture's blue
+    float roughness = 1.0f;           // times the texture's green
+    glm::vec3 emissive{0.0f};         // linear radiance, emissive strength folded in, times the sRGB emissive texture
+    float normalScale = 1.0f;
+    AlphaMode alphaMode = AlphaMode::opaque;
+    float alphaCutoff = 0.5f;         // mask: texels below it are not there
+    bool doubleSided = false;
+    bool unlit = false;               // base colour is the radiance
+    TextureSlot baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture;
+};
+
+struct Vertex {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f, 0.0f, 1.0f};
+    glm::vec4 tangent{1.0f, 0.0f, 0.0f, 1.0f};  // w: handedness of the bitangent
+    glm::vec2 uv{0.0f};
+};
+
+/// Indexed triangles with one material (index into Scene::materials).
+struct Primitive {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;  // 3 per triangle, all < vertices.size()
+    int material = 0;
+    Bounds bounds;                       // in mesh space
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+/// A mesh placed in the world: one per glTF node that has a mesh.
+struct Instance {
+    std::string name;
+    int mesh = 0;
+    glm::mat4 worldFromMesh{1.0f};
+};
+
+struct Camera {
+    std::string name;
+    glm::mat4 worldFromCamera{1.0f};  // rigid: looks along -z, y up
+    float yfovRadians = 0.8f;
+    float nearMetres = 0.01f;
+};
+
+enum class LightKind { directional, point, spot };
+
+/// KHR_lights_punctual, placed in the world.
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::point;
+    glm::vec3 color{1.0f};     // linear, intensity (lux or candela) folded in
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};  // unit, the way the light travels
+    float range = 0.0f;        // metres, 0: unlimited
+    float innerConeCos = 1.0f, outerConeCos = 0.7071f;  // spot only
+};
+
+struct Scene {
+    std::string name;
+    std::vector<TextureImage> images;
+    std::vector<Material> materials;  // at least one: the default material is appended when a primitive has none
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    Bounds bounds;                      // of all instances, in the world; empty for an empty scene
+    std::vector<std::string> warnings;  // what was ignored, one line each
+
+    std::size_t triangleCount() const;  // over instances
+};
+
+}  // namespace dioptre

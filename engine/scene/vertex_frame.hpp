@@ -1,0 +1,24 @@
+// Normals and tangents for vertices that came without.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace dioptre {
+
+/// Gives each triangle three vertices of its own and each vertex the normal of its face (counter-clockwise is front).
+/// A triangle without area gets +z.
+void makeFlat(Primitive& primitive);
+
+/// Gives each vertex marked in `missing` the area-weighted normal of the faces around it, +z where they have no area.
+void fillNormals(Primitive& primitive, const std::vector<bool>& missing);
+
+/// Tangents along increasing u, orthogonal to the normal, w = handedness: bitangent = w * cross(normal, tangent) runs
+/// along increasing v (the glTF convention). Vertices whose texture coordinates do not span a plane get some tangent.
+void computeTangents(Primitive& primitive);
+
+/// Some unit vector orthogonal to the unit vector `normal`.
+glm::vec3 anyOrthogonal(const glm::vec3& normal);
+
+}  // namespace dioptre
