@@ -1,0 +1,95 @@
+#include "gl/program.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/resources.hpp"
+
+namespace dioptre {
+
+namespace {
+
+/// The file with its #include lines replaced by their files, each once; #line keeps the compiler's messages true.
+void appendSource(const std::string& file, std::vector<std::string>& seen, std::string& out) {
+    for (const std::string& s : seen)
+        if (s == file) return;
+    seen.push_back(file);
+    const auto path = resource(std::filesystem::path("shaders") / file);
+    std::ifstream in(path);
+    if (!in) throw RunError(path.string() + ": cannot be read");
+    const std::size_t id = seen.size() - 1;
+    out += fmt::format("#line 1 {}\n", id);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+        if (const auto at = line.find("#include \""); at == 0) {
+            const auto end = line.find('"', 10);
+            appendSource(line.substr(10, end - 10), seen, out);
+            out += fmt::format("#line {} {}\n", number + 1, id);
+        } else if (line.rfind("#pragma once", 0) == 0) {
+            out += "\n";
+        } else {
+            out += line + "\n";
+        }
+    }
+}
+
+GLuint compile(GLenum stage, std::string_view file, const std::vector<std::string>& defines) {
+    std::string source = "#version 450 core\n";
+    for (const std::string& define : defines) source += "#define " + define + " 1\n";
+    std::vector<std::string> files;
+    appendSource(std::string(file), files, source);
+    const GLuint shader = glCreateShader(stage);
+    const char* text = source.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (!ok) {
+        std::string log(4096, '\0');
+        GLsizei length = 0;
+        glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+        log.resize(static_cast<std::size_t>(length));
+        glDeleteShader(shader);
+        throw RunError(fmt::format("shaders/{}: {}", file, log));
+    }
+    return shader;
+}
+
+}  // namespace
+
+Program::Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines) {
+    const GLuint stages[] = {compile(GL_VERTEX_SHADER, vertex, defines),
+                             compile(GL_FRAGMENT_SHADER, fragment, defines)};
+    const GLuint program = glCreateProgram();
+    Handle::operator=(Handle(program));
+    for (const GLuint stage : stages) glAttachShader(program, stage);
+    glLinkProgram(program);
+    for (const GLuint stage : stages) {
+        glDetachShader(program, stage);
+        glDeleteShader(stage);
+    }
+    GLint ok = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (!ok) {
+        std::string log(4096, '\0');
+        GLsizei length = 0;
+        glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
+        log.resize(static_cast<std::size_t>(length));
+        throw RunError(fmt::format("shaders/{}: {}", fragment, log));
+    }
+    glObjectLabel(GL_PROGRAM, program, static_cast<GLsizei>(fragment.size()), fragment.data());
+}
+
+FullscreenPass::FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines)
+    : program_("common/fullscreen.vert.glsl", fragment, defines), vertexArray_(makeVertexArray("full screen")) {}
+
+void FullscreenPass::draw() const {
+    program_.use();
+    glBindVertexArray(vertexArray_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace dioptre

@@ -1,0 +1,58 @@
+// Shader programs from files under shaders/, with #include "..." relative to that folder, so that constants and structs
+// shared with C++ are written once in shaders/shared/.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gl/objects.hpp"
+
+namespace dioptre {
+
+struct ProgramTraits {
+    static void free(GLuint n) { glDeleteProgram(n); }
+};
+
+class Program : public Handle<ProgramTraits> {
+  public:
+    Program() = default;
+    /// `vertex` and `fragment` are paths below shaders/; `defines` are names set to 1. Throws RunError with the
+    /// compiler's first message, file and line.
+    Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines = {});
+
+    void use() const { glUseProgram(name()); }
+    // Uniforms by name, for the program made current or not; a name the compiler removed is ignored.
+    void set(const char* uniform, int v) const { glProgramUniform1i(name(), location(uniform), v); }
+    void set(const char* uniform, float v) const { glProgramUniform1f(name(), location(uniform), v); }
+    void set(const char* uniform, const glm::vec2& v) const { glProgramUniform2f(name(), location(uniform), v.x, v.y); }
+    void set(const char* uniform, const glm::ivec2& v) const {
+        glProgramUniform2i(name(), location(uniform), v.x, v.y);
+    }
+    void set(const char* uniform, const glm::vec4& v) const {
+        glProgramUniform4f(name(), location(uniform), v.x, v.y, v.z, v.w);
+    }
+    void set(const char* uniform, const glm::mat4& m) const {
+        glProgramUniformMatrix4fv(name(), location(uniform), 1, GL_FALSE, &m[0][0]);
+    }
+
+  private:
+    GLint location(const char* uniform) const { return glGetUniformLocation(name(), uniform); }
+};
+
+/// A program that shades every pixel of the bound framebuffer from one triangle; draw() needs no vertex data.
+class FullscreenPass {
+  public:
+    FullscreenPass() = default;
+    explicit FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines = {});
+    const Program& program() const { return program_; }
+    void draw() const;
+
+  private:
+    Program program_;
+    VertexArray vertexArray_;
+};
+
+}  // namespace dioptre
