@@ -1,0 +1,74 @@
+// A scene in GPU memory, and the drawing of what a view can see of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gl/program.hpp"
+#include "optics/view.hpp"
+#include "render/scene_upload.hpp"
+#include "scene/scene.hpp"
+
+namespace dioptre {
+
+/// Vergences in dioptres; {0, 0, false} when nothing is seen.
+struct VergenceRange {
+    double nearest = 0.0, farthest = 0.0;
+    bool anything = false;
+};
+
+class GpuScene {
+  public:
+    /// Uploads geometry, materials and textures (mipmapped). Needs a current context.
+    explicit GpuScene(const Scene& scene);
+
+    /// Draws what `view` sees to the bound framebuffer: radiance × exposure and depth, or depth alone. The depth
+    /// buffer must have been cleared to 0 (reversed depth).
+    void drawRadiance(const View& view, float exposure) const { draw(view, exposure, false); }
+    void drawDepth(const View& view) const { draw(view, 1.0f, true); }
+
+    /// Of what `view` sees: conservative, from bounding boxes, nearest bounded by the view's near plane.
+    VergenceRange vergenceRange(const View& view) const;
+
+    std::size_t bytes() const { return bytes_; }
+
+  private:
+    // One primitive of one instance.
+    struct Item {
+        std::uint32_t firstIndex = 0, indexCount = 0, baseVertex = 0;
+        std::uint32_t material = 0;
+        bool mirrored = false;  // negative determinant: front faces run clockwise
+        glm::dmat4 worldFromMesh{1.0};
+        Bounds bounds;
+    };
+    struct TextureBinding {
+        const Texture* texture = nullptr;
+        GLuint sampler = 0;
+    };
+    struct BoundMaterial {
+        std::array<TextureBinding, 4> textures;  // base colour, metallic-roughness, normal, emissive
+        bool lit = false, mask = false, doubleSided = false;
+    };
+
+    void uploadGeometry(const Scene& scene);
+    void uploadMaterials(const Scene& scene);
+    void draw(const View& view, float exposure, bool depthOnly) const;
+    const Program& programFor(const BoundMaterial& material, bool depthOnly) const;
+
+    std::vector<Item> items_;  // sorted by state
+    std::vector<BoundMaterial> materials_;
+    std::vector<Light> lights_;
+    float skyRadiance_ = 0.0f;
+    std::size_t bytes_ = 0;
+
+    SceneTextures textures_;
+    SceneSamplers samplers_;
+    Buffer vertices_, indices_, drawIndices_, materialBuffer_;
+    mutable Buffer instances_, lightBuffer_, commands_;  // rewritten for each view
+    VertexArray vertexArray_;
+    Program unlit_, unlitMask_, lit_, litMask_, depth_, depthMask_;
+};
+
+}  // namespace dioptre

@@ -1,0 +1,11 @@
+#include "render/pinhole/pinhole.hpp"
+
+namespace dioptre {
+
+const Texture& Pinhole::draw(const EyeFrame& frame) {
+    geometry_.draw(frame.scene, frame.view, frame.exposure, frame.msaa, frame.log);
+    if (frame.show.stage != ShowChoice::none) return show_.draw(frame, geometry_.depth());
+    return geometry_.color();
+}
+
+}  // namespace dioptre

@@ -1,0 +1,20 @@
+// Everything sharp: the price and the picture that all other techniques are compared with.
+#pragma once
+
+#include "render/geometry_pass.hpp"
+#include "render/show_pass.hpp"
+#include "render/technique.hpp"
+
+namespace dioptre {
+
+class Pinhole final : public Technique {
+  public:
+    const Texture& draw(const EyeFrame& frame) override;
+    std::size_t bytes() const override { return geometry_.bytes(); }
+
+  private:
+    GeometryPass geometry_;
+    ShowPass show_;
+};
+
+}  // namespace dioptre

@@ -1,0 +1,49 @@
+// From a scene's plain data to what the GPU reads: textures, samplers, one vertex and one index buffer.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "gl/objects.hpp"
+#include "scene/scene.hpp"
+#include "shaders/shared/scene_types.h"
+
+namespace dioptre {
+
+/// Colour is sRGB in the file, data and normals are linear; the stand-in for "no texture" differs too.
+enum class TextureUse { color, data, normal };
+
+struct TextureKey {
+    int image;  // index into Scene::images, -1: the stand-in
+    TextureUse use;
+    bool operator==(const TextureKey&) const = default;
+};
+using SceneTextures = std::vector<std::pair<TextureKey, Texture>>;
+using SceneSamplers = std::vector<std::pair<Sampler, GlSampler>>;
+
+/// Every image in each way that a material uses it, mipmapped, and the stand-ins.
+SceneTextures uploadTextures(const Scene& scene);
+const Texture& findTexture(const SceneTextures& textures, int image, TextureUse use);
+/// The sampler object for a description, made on first use.
+GLuint samplerFor(SceneSamplers& samplers, const Sampler& sampler);
+
+struct PrimitiveRange {
+    std::uint32_t firstIndex, indexCount, baseVertex;
+};
+/// All primitives one after another; mesh i's are primitives[firstPrimitive[i]] and on.
+struct UploadedGeometry {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<PrimitiveRange> primitives;
+    std::vector<std::size_t> firstPrimitive;
+};
+UploadedGeometry uploadMeshes(const Scene& scene);
+void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices,
+                      const Buffer& drawIndices);
+
+gpu::LightData lightInView(const Light& light, const glm::dmat4& viewFromWorld);
+/// The light of a scene that brings none: from above, the right and behind the default viewer.
+Light keyLight();
+
+}  // namespace dioptre

@@ -1,0 +1,49 @@
+// The seam between a frame and the ways of drawing defocus: a technique turns a scene and an eye's view into a picture.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/settings.hpp"
+#include "gl/objects.hpp"
+#include "gl/pass.hpp"
+#include "optics/lens.hpp"
+#include "optics/view.hpp"
+#include "render/gpu_scene.hpp"
+
+namespace dioptre {
+
+/// All that a technique may know about one eye's picture.
+struct EyeFrame {
+    const GpuScene& scene;
+    const View& view;
+    const Lens& lens;
+    float exposure = 1.0f;  // factor on radiance
+    int msaa = 0;
+    ShowStage show;  // a stage of the technique instead of the picture
+    PassLog& log;
+};
+
+class Technique {
+  public:
+    Technique() = default;
+    virtual ~Technique() = default;
+    Technique(const Technique&) = delete;
+    Technique& operator=(const Technique&) = delete;
+
+    /// Linear radiance × exposure, RGBA16F, view.width × view.height; valid until the next call. Leaves depth test and
+    /// blending off. Throws InputError for a stage it does not have, RunError where the GL fails.
+    virtual const Texture& draw(const EyeFrame& frame) = 0;
+
+    /// Textures held, the geometry pass's included.
+    virtual std::size_t bytes() const = 0;
+};
+
+/// One instance per eye: it keeps that eye's buffers. New techniques join the list in technique.cpp.
+std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
+
+/// CoC transform of an eye's picture: pixel radii along x (pixels are square but for half-width displays).
+CocTransform cocTransform(const EyeFrame& frame);
+
+}  // namespace dioptre

@@ -1,0 +1,60 @@
+// Two eyes' linear radiance to one picture; the only place where the window's sRGB is made.
+layout(binding = 0) uniform sampler2D leftEye;
+layout(binding = 1) uniform sampler2D rightEye;
+uniform int mode;      // Layout in present/compositor.hpp
+uniform vec2 size;     // of the target, pixels
+uniform int neutral;   // Khronos PBR Neutral tone mapping
+uniform int encode;    // to sRGB, for a window
+
+layout(location = 0) out vec4 color;
+
+vec3 eye(sampler2D picture, vec2 uv) { return textureLod(picture, uv, 0.0).rgb; }
+
+// Squeezed to half width: two source pixels to one, so that nothing is skipped.
+vec3 squeezed(sampler2D picture, vec2 uv) {
+    float quarter = 0.5 / float(textureSize(picture, 0).x);
+    return 0.5 * (eye(picture, uv - vec2(quarter, 0.0)) + eye(picture, uv + vec2(quarter, 0.0)));
+}
+
+// Dubois 2001, "A projection method to generate anaglyph stereo images": least squares for red-cyan glasses, linear RGB.
+vec3 anaglyph(vec3 l, vec3 r) {
+    const mat3 kLeft = mat3(0.4561, -0.0400822, -0.0152161, 0.500484, -0.0378246, -0.0205971, 0.176381, -0.0157589,
+                            -0.00546856);
+    const mat3 kRight = mat3(-0.0434706, 0.378476, -0.0721527, -0.0879388, 0.73364, -0.112961, -0.00155529, -0.0184503,
+                             1.2264);
+    // The display's range is part of the derivation.
+    return max(kLeft * min(l, 1.0) + kRight * min(r, 1.0), 0.0);
+}
+
+// Khronos PBR Neutral: colours stay as they are below 0.8, highlights roll off and lose saturation.
+vec3 toneMapNeutral(vec3 c) {
+    const float kStart = 0.8 - 0.04;
+    const float kDesaturation = 0.15;
+    float x = min(c.r, min(c.g, c.b));
+    c -= x < 0.08 ? x - 6.25 * x * x : 0.04;
+    float peak = max(c.r, max(c.g, c.b));
+    if (peak < kStart) return c;
+    float d = 1.0 - kStart;
+    float newPeak = 1.0 - d * d / (peak + d - kStart);
+    c *= newPeak / peak;
+    return mix(c, vec3(newPeak), 1.0 - 1.0 / (kDesaturation * (peak - newPeak) + 1.0));
+}
+
+vec3 sRgb(vec3 c) {
+    c = clamp(c, 0.0, 1.0);
+    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+
+void main() {
+    vec2 uv = gl_FragCoord.xy / size;
+    bool second = mode == 3 ? uv.y < 0.5 : uv.x >= 0.5;
+    vec2 half_ = mode == 3 ? vec2(uv.x, fract(uv.y * 2.0)) : vec2(fract(uv.x * 2.0), uv.y);
+    vec3 c;
+    if (mode == 0) c = eye(leftEye, uv);
+    else if (mode == 2) c = second ? squeezed(rightEye, half_) : squeezed(leftEye, half_);
+    else if (mode == 4) c = anaglyph(eye(leftEye, uv), eye(rightEye, uv));
+    else c = second ? eye(rightEye, half_) : eye(leftEye, half_);
+    if (neutral != 0) c = toneMapNeutral(c);
+    if (encode != 0) c = sRgb(c);
+    color = vec4(c, 1.0);
+}

@@ -1,0 +1,35 @@
+// All geometry goes through here: clip position, and what the fragment stage needs in view space.
+#include "shared/scene_types.h"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) in uint drawIndex;  // one per draw, by the base instance
+
+layout(std430, binding = 0) readonly buffer Instances { InstanceData instances[]; };
+
+uniform mat4 clipFromView;
+
+out Surface {
+    vec3 viewPosition;
+    vec3 normal;
+    vec4 tangent;
+    vec2 uv;
+} surface;
+flat out uint material;
+
+void main() {
+    mat4 viewFromMesh = instances[drawIndex].viewFromMesh;
+    material = instances[drawIndex].material.x;
+    vec4 viewPosition = viewFromMesh * vec4(position, 1.0);
+    surface.uv = uv;
+#ifdef LIT
+    surface.viewPosition = viewPosition.xyz;
+    // Cofactors: right for any scale, its sign included.
+    mat3 m = mat3(viewFromMesh);
+    surface.normal = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * normal * sign(determinant(m));
+    surface.tangent = vec4(m * tangent.xyz, tangent.w * sign(determinant(m)));
+#endif
+    gl_Position = clipFromView * viewPosition;
+}

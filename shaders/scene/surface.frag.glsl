@@ -1,0 +1,73 @@
+// Radiance of a surface: unlit, or metallic-roughness under punctual lights and a soft sky (glTF 2.0, appendix B).
+#include "shared/scene_types.h"
+#include "scene/brdf.glsl"
+
+in Surface {
+    vec3 viewPosition;
+    vec3 normal;
+    vec4 tangent;
+    vec2 uv;
+} surface;
+flat in uint material;
+
+layout(std430, binding = 1) readonly buffer Materials { MaterialData materials[]; };
+layout(std430, binding = 2) readonly buffer Lights { LightData lights[]; };
+
+layout(binding = 0) uniform sampler2D baseColorTexture;
+layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
+layout(binding = 2) uniform sampler2D normalTexture;
+layout(binding = 3) uniform sampler2D emissiveTexture;
+
+uniform int lightCount;
+uniform vec4 up;           // xyz: the world's up in view space; w: the sky's radiance at the zenith
+uniform float exposure;    // radiance is scaled by it here, so that half floats keep their digits
+
+layout(location = 0) out vec4 radiance;
+
+#ifdef LIT
+vec3 shadingNormal(MaterialData m) {
+    vec3 n = normalize(surface.normal) * (gl_FrontFacing ? 1.0 : -1.0);
+    if (m.surface.w > 0.0) {
+        vec3 t = surface.tangent.xyz - n * dot(n, surface.tangent.xyz);
+        if (dot(t, t) > 1e-20) {
+            t = normalize(t);
+            vec3 b = cross(n, t) * surface.tangent.w;
+            vec3 local = texture(normalTexture, surface.uv).xyz * 2.0 - 1.0;
+            local.xy *= m.emissive.w;
+            n = normalize(mat3(t, b, n) * local);
+        }
+    }
+    return n;
+}
+
+vec3 lit(MaterialData m, vec3 baseColor) {
+    vec4 mr = texture(metallicRoughnessTexture, surface.uv);
+    float metallic = m.surface.x * mr.b;
+    float roughness = m.surface.y * mr.g;
+    vec3 n = shadingNormal(m);
+    vec3 v = normalize(-surface.viewPosition);
+    Reflectance r = reflectance(baseColor, metallic, roughness, max(dot(n, v), 1e-4));
+    vec3 sum = r.diffuse * sky(n, up) + r.environment * sky(reflect(-v, n), up);
+    for (int i = 0; i < lightCount; ++i) {
+        vec3 l;
+        vec3 irradiance = incoming(lights[i], surface.viewPosition, n, l);
+        sum += irradiance * brdf(r, n, v, l);
+    }
+    return sum;
+}
+#endif
+
+void main() {
+    MaterialData m = materials[material];
+    vec4 baseColor = m.baseColor * texture(baseColorTexture, surface.uv);
+#ifdef MASK
+    if (baseColor.a < m.surface.z) discard;
+#endif
+#ifdef LIT
+    vec3 color = lit(m, baseColor.rgb) + m.emissive.rgb * texture(emissiveTexture, surface.uv).rgb;
+#else
+    vec3 color = baseColor.rgb;
+#endif
+    // Half floats end at 65504; NaN (0/0 in a degenerate triangle) becomes 0 by the order of max's arguments.
+    radiance = vec4(min(max(vec3(0.0), color * exposure), vec3(65504.0)), 1.0);
+}

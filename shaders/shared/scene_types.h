@@ -1,0 +1,32 @@
+// Structs of the scene's buffers, read by C++ and GLSL alike (std430: vec4 and mat4 members only).
+#ifdef __cplusplus
+#pragma once
+#include <glm/glm.hpp>
+namespace dioptre::gpu {
+using glm::mat4;
+using glm::uvec4;
+using glm::vec4;
+#endif
+
+struct InstanceData {
+    mat4 viewFromMesh;  // eye-relative, so that a scene far from the origin keeps its digits
+    uvec4 material;     // x: index into the materials
+};
+
+struct MaterialData {
+    vec4 baseColor;
+    vec4 emissive;  // rgb: radiance; w: normal map's scale
+    vec4 surface;   // x: metallic, y: roughness, z: alpha cut-off, w: 1 if a normal map is used
+};
+
+struct LightData {
+    vec4 position;   // xyz: view space, metres; w: kind (0 directional, 1 point, 2 spot)
+    vec4 direction;  // xyz: view space, the way the light travels; w: range in metres, 0 without limit
+    vec4 color;      // rgb: lux (directional) or candela; w unused
+    vec4 cone;       // x: cosine of the inner angle, y: of the outer
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(InstanceData) == 80 && sizeof(MaterialData) == 48 && sizeof(LightData) == 64);
+}  // namespace dioptre::gpu
+#endif
