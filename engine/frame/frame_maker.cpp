@@ -1,0 +1,184 @@
+#include "frame/frame_maker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/resources.hpp"
+#include "core/text.hpp"
+#include "focus/stereo_rig.hpp"
+
+namespace dioptre {
+
+namespace {
+
+/// A preset's name in config/lenses, else a file.
+std::filesystem::path lensFile(const std::string& nameOrFile) {
+    const auto presets = resource("config/lenses");
+    if (auto file = presets / (nameOrFile + ".json"); std::filesystem::exists(file)) return file;
+    if (std::filesystem::exists(nameOrFile)) return nameOrFile;
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(presets)) names.push_back(entry.path().stem());
+    std::sort(names.begin(), names.end());
+    throw InputError(
+        fmt::format("--lens: {} is neither a file nor one of {}", quote(nameOrFile), fmt::join(names, ", ")));
+}
+
+std::string_view dynamicsName(DynamicsChoice choice) {
+    switch (choice) {
+        case DynamicsChoice::natural:
+            return "natural";
+        case DynamicsChoice::snappy:
+            return "snappy";
+        case DynamicsChoice::instant:
+            return "instant";
+    }
+    return "natural";
+}
+
+std::string_view techniqueName(TechniqueChoice choice) {
+    return choice == TechniqueChoice::pinhole ? "pinhole" : "mipmap";
+}
+
+LensConditions conditionsOf(const LensSettings& settings) {
+    LensConditions conditions;
+    if (settings.apertureMm) conditions.apertureDiameter = Metres(*settings.apertureMm * 1e-3);
+    conditions.ageYears = settings.ageYears;
+    conditions.luminance = settings.luminance;
+    return conditions;
+}
+
+std::optional<ScreenGeometry> screenOf(const ViewSettings& settings) {
+    if (!settings.screenWidthMm && !settings.screenDistanceMm) return std::nullopt;
+    if (!settings.screenWidthMm || !settings.screenDistanceMm)
+        throw InputError("--screen-width-mm and --screen-distance-mm belong together: only one is given");
+    return ScreenGeometry{Metres(*settings.screenWidthMm * 1e-3), Metres(*settings.screenDistanceMm * 1e-3)};
+}
+
+/// The gaze as visual angles from the axis, degrees, for its speed.
+glm::dvec2 gazeDegrees(const View& view, glm::dvec2 gaze) {
+    const Frustum& f = view.frustum;
+    const glm::dvec2 tangent(f.left + gaze.x * (f.right - f.left), f.top + gaze.y * (f.bottom - f.top));
+    return glm::degrees(glm::atan(tangent));
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
+    : settings_(settings),
+      scene_(scene),
+      start_(startView(scene, settings.view)),
+      preset_(loadLensPreset(lensFile(settings.lens.lens))),
+      conditions_(conditionsOf(settings.lens)),
+      filter_(focusPreset(dynamicsName(settings.focus.dynamics))) {
+    if (!settings.focus.gazeTrace.empty()) gazeTrace_ = readGazeTrace(settings.focus.gazeTrace);
+    if (!settings.focus.headTrace.empty()) headTrace_ = readHeadTrace(settings.focus.headTrace);
+    if (settings.focus.focus.mode == FocusMode::metres)
+        validateFocus(preset_.focalLength, vergence(Metres(settings.focus.focus.metres)));
+    const bool both = settings.view.eye == EyeChoice::both && settings.view.display != DisplayChoice::mono;
+    for (int i = 0; i < (both ? 2 : 1); ++i)
+        eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
+    report_.plan = fmt::format("{}, msaa {}", techniqueName(settings.render.technique), settings.render.msaa);
+}
+
+GazeSample FrameMaker::gazeNow(const Input& input) const {
+    if (input.gaze) return {input.time, *input.gaze, true};
+    if (!gazeTrace_.empty()) return gazeAt(gazeTrace_, input.time);
+    return {input.time, {settings_.focus.gaze[0], settings_.focus.gaze[1]}, true};
+}
+
+View FrameMaker::headView(const Input& input) const {
+    const Pose local = input.head ? *input.head : headPoseAt(headTrace_, input.time);
+    View view = start_;
+    view.pose.position = start_.pose.position + start_.pose.orientation * local.position;
+    view.pose.orientation = glm::normalize(start_.pose.orientation * local.orientation);
+    return view;
+}
+
+void FrameMaker::placeEyes(const View& head) {
+    const Metres ipd(settings_.view.ipdMm * 1e-3);
+    const auto screen = screenOf(settings_.view);
+    if (eyes_.size() == 2) {
+        eyes_[0].view = eyeView(Eye::left, head, ipd, screen);
+        eyes_[1].view = eyeView(Eye::right, head, ipd, screen);
+        return;
+    }
+    const Eye eye = settings_.view.eye == EyeChoice::left    ? Eye::left
+                    : settings_.view.eye == EyeChoice::right ? Eye::right
+                                                             : Eye::centre;
+    eyes_[0].view = eyeView(eye, head, ipd, screen);
+}
+
+Dioptres FrameMaker::focusNow(const View& head, const GazeSample& gaze, double time) {
+    const FocusChoice& choice = settings_.focus.focus;
+    if (choice.mode == FocusMode::infinity) return Dioptres(0.0);
+    if (choice.mode == FocusMode::metres) return vergence(Metres(choice.metres));
+    const View centre = eyeView(Eye::centre, head, Metres(settings_.view.ipdMm * 1e-3), screenOf(settings_.view));
+    std::vector<View> views;
+    for (const EyePicture& eye : eyes_) views.push_back(eye.view);
+    const Radians error(glm::radians(settings_.focus.gazeErrorDeg));
+    const auto read = [&](glm::dvec2 at) { return probe_.vergence(scene_, views, centre, at, error, report_.passes); };
+    report_.underGaze = gaze.valid ? read(gaze.position) : std::nullopt;
+    // A first frame, or a jump back, has no past to move from.
+    if (!lastTime_ || time < *lastTime_) {
+        const auto settled = report_.underGaze ? report_.underGaze : read({0.5, 0.5});
+        filter_.jump(time, settled.value_or(Dioptres(0.0)));
+    }
+    const Dioptres middle = gaze.valid ? Dioptres(std::nan("")) : read({0.5, 0.5}).value_or(Dioptres(0.0));
+    filter_.sample({time, report_.underGaze, gazeDegrees(centre, gaze.position), gaze.valid, middle});
+    return filter_.focus();
+}
+
+const FrameReport& FrameMaker::make(const Input& input) {
+    const double start = nowMilliseconds();
+    report_.passes.entries.clear();
+    report_.time = input.time;
+    report_.gaze = gazeNow(input);
+    report_.underGaze.reset();
+
+    // Head pose and gaze, depth at the gaze, focus
+    const View head = headView(input);
+    placeEyes(head);
+    const Dioptres wanted = focusNow(head, report_.gaze, input.time);
+    lastTime_ = input.time;
+
+    // Lens or eye: what it can reach
+    report_.lens = resolveLens(preset_, conditions_, wanted);
+
+    // Technique, once per eye, same plan for both
+    const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
+    for (EyePicture& eye : eyes_)
+        eye.picture = &eye.technique->draw({scene_, eye.view, report_.lens.lens, exposure, settings_.render.msaa,
+                                            settings_.render.show, report_.passes});
+    composed_ = &compositor_.compose(composition(), report_.passes);
+    glFinish();
+    report_.milliseconds = nowMilliseconds() - start;
+    return report_;
+}
+
+Composition FrameMaker::composition() const {
+    const Texture& left = *eyes_.front().picture;
+    const Texture& right = *eyes_.back().picture;
+    return {left, right, eyes_.size() == 1 ? DisplayChoice::mono : settings_.view.display, settings_.view.swapEyes,
+            settings_.render.tonemap};
+}
+
+Image FrameMaker::composed() const {
+    Image image(composed_->width(), composed_->height());
+    image.pixels = readTexture(*composed_, GL_RGB, 3);
+    return image;
+}
+
+void FrameMaker::present(int width, int height) {
+    compositor_.present(width, height, report_.passes);
+}
+
+std::size_t FrameMaker::techniqueBytes() const {
+    std::size_t sum = 0;
+    for (const EyePicture& eye : eyes_) sum += eye.technique->bytes();
+    return sum;
+}
+
+}  // namespace dioptre

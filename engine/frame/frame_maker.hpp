@@ -1,0 +1,93 @@
+// The way of a frame: head pose and gaze, depth at the gaze, focus, lens, two eye views, technique, composition.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/settings.hpp"
+#include "focus/focus_filter.hpp"
+#include "focus/traces.hpp"
+#include "frame/gaze_probe.hpp"
+#include "gl/pass.hpp"
+#include "optics/lens_preset.hpp"
+#include "present/compositor.hpp"
+#include "render/technique.hpp"
+#include "scene/scene.hpp"
+
+namespace dioptre {
+
+/// What was shown.
+struct FrameReport {
+    double time = 0.0;  // seconds
+    GazeSample gaze;
+    std::optional<Dioptres> underGaze;  // measured only where focus follows the gaze
+    ResolvedLens lens;
+    std::string plan;           // "mipmap, msaa 4"
+    double milliseconds = 0.0;  // of the finished frame
+    PassLog passes;
+};
+
+/// A view of the whole scene from its front, for scenes without a camera.
+View framedView(const Bounds& bounds, PictureSize size);
+/// The view that settings ask for: --pose, else --camera, else the first camera, else the whole scene.
+/// InputError for a camera that is not there (naming those that are).
+View startView(const Scene& scene, const ViewSettings& settings);
+
+class FrameMaker {
+  public:
+    /// Loads what the settings name (lens, traces). Needs a current context that outlives it. Throws InputError.
+    FrameMaker(const Scene& scene, const Settings& settings);
+
+    /// What the viewer does between frames, where no trace says it.
+    struct Input {
+        double time = 0.0;
+        std::optional<glm::dvec2> gaze;  // 0..1 from the top left; overrides trace and setting
+        std::optional<Pose> head;        // in the start view's frame; overrides the trace
+    };
+    /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
+    /// with the focus settled.
+    const FrameReport& make(const Input& input);
+
+    /// The last frame: read back, linear; or shown in the window's framebuffer of that size.
+    Image composed() const;
+    void present(int width, int height);
+
+    const ResolvedLens& lens() const { return report_.lens; }
+    const View& startingView() const { return start_; }
+    std::size_t techniqueBytes() const;
+    const GpuScene& scene() const { return scene_; }
+
+  private:
+    struct EyePicture {
+        View view;
+        std::unique_ptr<Technique> technique;
+        const Texture* picture = nullptr;
+    };
+
+    GazeSample gazeNow(const Input& input) const;
+    View headView(const Input& input) const;
+    void placeEyes(const View& head);
+    Dioptres focusNow(const View& head, const GazeSample& gaze, double time);
+    Composition composition() const;
+
+    Settings settings_;
+    GpuScene scene_;
+    View start_;
+    LensPreset preset_;
+    LensConditions conditions_;
+    std::vector<GazeSample> gazeTrace_;
+    std::vector<HeadSample> headTrace_;
+    GazeProbe probe_;
+    FocusFilter filter_;
+    std::optional<double> lastTime_;
+    std::vector<EyePicture> eyes_;  // one, or left and right
+    Compositor compositor_;
+    const Texture* composed_ = nullptr;
+    FrameReport report_;
+};
+
+}  // namespace dioptre

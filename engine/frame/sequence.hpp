@@ -1,0 +1,31 @@
+// A sequence of frames on disk, with a page to look at it and a table of what was shown.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frame/frame_maker.hpp"
+
+namespace dioptre {
+
+struct SequenceRequest {
+    std::string title;  // the scene's name
+    int frames = 1;
+    double fps = 30.0;             // frame i is at i / fps seconds
+    std::filesystem::path folder;  // made if missing
+};
+
+/// Draws frame_0000.png and on, then index.html, with a progress line. Throws InputError or RunError; what was finished
+/// before stays.
+std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest& request);
+
+/// One line per frame: time, gaze, focus (D), pupil diameter (mm), plan, milliseconds. What `--log` writes.
+std::string frameLogCsv(std::span<const FrameReport> frames);
+
+/// The page: per frame picture, focus distance, plan and milliseconds; focus and time over the sequence as a plot.
+/// Self-contained but for the pictures, which lie beside it.
+std::string sequencePage(const SequenceRequest& request, std::span<const FrameReport> frames);
+
+}  // namespace dioptre

@@ -1,0 +1,37 @@
+// From the eyes' linear pictures to what a display shows.
+#pragma once
+
+#include "core/settings.hpp"
+#include "gl/objects.hpp"
+#include "gl/pass.hpp"
+#include "gl/program.hpp"
+
+namespace dioptre {
+
+/// Size of the composed picture from ONE eye's: twice as wide for sideBySide, twice as high for topBottom.
+PictureSize composedSize(DisplayChoice display, PictureSize eye);
+
+struct Composition {
+    const Texture& left;   // the only picture for DisplayChoice::mono
+    const Texture& right;  // same size
+    DisplayChoice display = DisplayChoice::sideBySide;
+    bool swapEyes = false;
+    ToneMapChoice tonemap = ToneMapChoice::none;
+};
+
+class Compositor {
+  public:
+    /// Linear, RGBA32F, composedSize; valid until the next call.
+    const Texture& compose(const Composition& composition, PassLog& log);
+    /// The last composition, sRGB-encoded, stretched over the window's framebuffer (0) of that size.
+    void present(int width, int height, PassLog& log);
+
+  private:
+    void draw(const Composition& composition, int width, int height, bool encode);
+
+    FullscreenPass pass_;
+    Texture output_;
+    Framebuffer target_;
+};
+
+}  // namespace dioptre
