@@ -68,7 +68,7 @@ std::span<const char* const> channelNames(int channels) {
 }
 
 // `corner` is the data window's: OpenEXR counts pixels from there, not from the start of the memory.
-Imf::FrameBuffer frameBufferOf(const Image& image, Imath::V2i corner) {
+Imf::FrameBuffer frameBufferOf(const Image& image, const Imath::V2i& corner) {
     Imf::FrameBuffer buffer;
     const std::size_t xStride = sizeof(float) * static_cast<std::size_t>(image.channels);
     const std::size_t yStride = xStride * static_cast<std::size_t>(image.width);

@@ -80,10 +80,10 @@ struct RenderSettings {
     ToneMapChoice tonemap = ToneMapChoice::none;
 };
 
-enum class ContextChoice { osmesa, egl };
+enum class ContextChoice { automatic, osmesa, egl };
 
 struct SystemSettings {
-    ContextChoice context = ContextChoice::osmesa;
+    ContextChoice context = ContextChoice::automatic;
 };
 
 struct Settings {

@@ -11,8 +11,7 @@ namespace dioptre {
 
 namespace {
 
-void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text,
-                               const void*) {
+void GLAPIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text, const void*) {
     if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH) std::fprintf(stderr, "OpenGL: %s\n", text);
 }
 

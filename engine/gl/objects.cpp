@@ -18,17 +18,24 @@ void label(GLenum kind, GLuint name, std::string_view text) {
 
 std::size_t texelBytes(GLenum format) {
     switch (format) {
-        case GL_R8: return 1;
-        case GL_R16F: return 2;
+        case GL_R8:
+            return 1;
+        case GL_R16F:
+            return 2;
         case GL_RGBA8:
         case GL_SRGB8_ALPHA8:
         case GL_RG16F:
         case GL_R32F:
         case GL_R11F_G11F_B10F:
-        case GL_DEPTH_COMPONENT32F: return 4;
-        case GL_RGBA16F: return 8;
-        case GL_RGBA32F: return 16;
-        default: assert(!"texture format without a known size"); return 16;
+        case GL_DEPTH_COMPONENT32F:
+            return 4;
+        case GL_RGBA16F:
+            return 8;
+        case GL_RGBA32F:
+            return 16;
+        default:
+            assert(!"texture format without a known size");
+            return 16;
     }
 }
 

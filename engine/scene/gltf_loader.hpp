@@ -37,7 +37,7 @@ struct LoadLimits {
 /// Throws InputError, one line that starts with the file's name and names the element, the value and the limit:
 /// `scene.glb: meshes[3].primitives[0].indices: accessor 12 reads 4096 bytes past bufferView 5 (800 bytes)`.
 /// Buffers and images must lie inside the scene's folder, links resolved; of all schemes only `data:` is followed.
-/// Names are UTF-8: an instance, camera or light has that of its node, or else its own; the scene its own or the file's.
+/// Names are UTF-8: an instance, camera or light has that of its node, or else its own; a scene its own or the file's.
 /// An instance keeps a matrix that mirrors (negative determinant): who draws it flips the winding.
 Scene loadGltf(const std::filesystem::path& path, const LoadLimits& limits = {});
 

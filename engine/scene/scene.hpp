@@ -56,15 +56,15 @@ enum class AlphaMode { opaque, mask };
 
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1.0f};        // linear, times the sRGB base colour texture
-    float metallic = 1.0f;            // times the texture's blue
-    float roughness = 1.0f;           // times the texture's green
-    glm::vec3 emissive{0.0f};         // linear radiance, emissive strength folded in, times the sRGB emissive texture
+    glm::vec4 baseColor{1.0f};  // linear, times the sRGB base colour texture
+    float metallic = 1.0f;      // times the texture's blue
+    float roughness = 1.0f;     // times the texture's green
+    glm::vec3 emissive{0.0f};   // linear radiance, emissive strength folded in, times the sRGB emissive texture
     float normalScale = 1.0f;
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alphaCutoff = 0.5f;         // mask: texels below it are not there
+    float alphaCutoff = 0.5f;  // mask: texels below it are not there
     bool doubleSided = false;
-    bool unlit = false;               // base colour is the radiance
+    bool unlit = false;  // base colour is the radiance
     TextureSlot baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture;
 };
 
@@ -80,7 +80,7 @@ struct Primitive {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;  // 3 per triangle, all < vertices.size()
     int material = 0;
-    Bounds bounds;                       // in mesh space
+    Bounds bounds;  // in mesh space
 };
 
 struct Mesh {
@@ -108,10 +108,10 @@ enum class LightKind { directional, point, spot };
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 color{1.0f};     // linear, intensity (lux or candela) folded in
+    glm::vec3 color{1.0f};  // linear, intensity (lux or candela) folded in
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0.0f, 0.0f, -1.0f};  // unit, the way the light travels
-    float range = 0.0f;        // metres, 0: unlimited
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};             // unit, the way the light travels
+    float range = 0.0f;                                 // metres, 0: unlimited
     float innerConeCos = 1.0f, outerConeCos = 0.7071f;  // spot only
 };
 

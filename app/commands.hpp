@@ -1,0 +1,23 @@
+// The subcommands, one file each. Each throws InputError (exit code 2) or RunError (1).
+#pragma once
+
+#include <memory>
+
+#include "gl/context.hpp"
+#include "options.hpp"
+#include "scene/scene.hpp"
+
+namespace dioptre {
+
+/// The scene that the command line names, else the built-in one; its warnings go to the log.
+Scene loadScene(const Command& command);
+
+/// The context that --context names, made current.
+std::unique_ptr<Context> openHeadlessContext(const Command& command);
+
+void runRender(const Command& command);
+void runView(const Command& command);
+void runInspect(const Command& command);
+void runCompare(const Command& command);
+
+}  // namespace dioptre

@@ -1,0 +1,92 @@
+// dioptre inspect: what the scene holds, what the lens can do, what this view requires.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "commands.hpp"
+#include "frame/frame_maker.hpp"
+#include "gl/context.hpp"
+#include "optics/lens.hpp"
+
+namespace dioptre {
+
+namespace {
+
+std::string metresText(Dioptres d) {
+    return d.value <= 0.0 ? "infinity" : fmt::format("{:.4g} m", 1.0 / d.value);
+}
+
+std::string sceneText(const Scene& scene) {
+    std::string text = fmt::format("scene      {}\n", scene.name);
+    std::size_t texels = 0;
+    for (const TextureImage& image : scene.images) texels += image.rgba.size();
+    text += fmt::format("objects    {} instances of {} meshes, {} triangles drawn\n", scene.instances.size(),
+                        scene.meshes.size(), scene.triangleCount());
+    text += fmt::format("surfaces   {} materials, {} images ({:.1f} MB decoded)\n", scene.materials.size(),
+                        scene.images.size(), static_cast<double>(texels) / 1e6);
+    if (scene.bounds.empty()) {
+        text += "bounds     nothing to draw\n";
+    } else {
+        const auto& b = scene.bounds;
+        text += fmt::format("bounds     {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m\n", b.min.x, b.min.y, b.min.z,
+                            b.max.x, b.max.y, b.max.z);
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        text += fmt::format("camera {}   {}, {:.1f} deg high, near {:.4g} m\n", i, scene.cameras[i].name,
+                            glm::degrees(scene.cameras[i].yfovRadians), scene.cameras[i].nearMetres);
+    text += scene.lights.empty() ? "lights     none: a soft sky and one key light\n"
+                                 : fmt::format("lights     {}\n", scene.lights.size());
+    if (!scene.warnings.empty()) text += fmt::format("ignored    {} warnings, above\n", scene.warnings.size());
+    return text;
+}
+
+std::string lensText(const Settings& settings, const FrameReport& frame) {
+    const ResolvedLens& lens = frame.lens;
+    std::string text = fmt::format("lens       {}: F {:.4g} mm, aperture diameter {:.3f} mm\n", settings.lens.lens,
+                                   lens.lens.focalLength.value * 1e3, lens.apertureDiameter.value * 1e3);
+    text += fmt::format("reach      focuses from {} ({:.2f} D) to {} ({:.2f} D)\n", metresText(lens.range.nearest),
+                        lens.range.nearest.value, metresText(lens.range.farthest), lens.range.farthest.value);
+    text += fmt::format("focus      {:.3f} D ({})", lens.lens.focus.value, metresText(lens.lens.focus));
+    if (lens.focusLimited)
+        text += fmt::format(": {:.3f} D was asked for, {:+.3f} D out of reach",
+                            lens.lens.focus.value + lens.residual.value, lens.residual.value);
+    return text + "\n";
+}
+
+std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
+    const View& view = maker.startingView();
+    const VergenceRange range = maker.scene().vergenceRange(view);
+    std::string text = fmt::format("view       {}x{} px an eye, f {:.1f} px, near {:.4g} m\n", view.width, view.height,
+                                   focalLengthPixels(view).x, view.near.value);
+    if (range.anything) {
+        const double f = focalLengthPixels(view).x;
+        text += fmt::format(
+            "depth      {} ({:.3f} D) to {} ({:.3f} D), from bounding boxes\nblur       CoC radius {:.2f} px nearest, "
+            "{:+.2f} px farthest (> 0 behind focus)\n",
+            metresText(Dioptres(range.nearest)), range.nearest, metresText(Dioptres(range.farthest)), range.farthest,
+            cocRadiusPixels(frame.lens.lens, f, Dioptres(range.nearest)),
+            cocRadiusPixels(frame.lens.lens, f, Dioptres(range.farthest)));
+    }
+    text += fmt::format("plan       {}, {:.1f} MB of textures for the eyes\n", frame.plan,
+                        static_cast<double>(maker.techniqueBytes()) / 1e6);
+    std::map<std::string_view, int> counts;
+    for (const auto& pass : frame.passes.entries) ++counts[pass.name];
+    text += "passes     ";
+    for (const auto& [name, count] : counts) text += fmt::format("{} x{}  ", name, count);
+    return text + "\n";
+}
+
+}  // namespace
+
+void runInspect(const Command& command) {
+    const Scene scene = loadScene(command);
+    std::fputs(sceneText(scene).c_str(), stdout);
+    const auto context = openHeadlessContext(command);
+    FrameMaker maker(scene, command.settings);
+    const FrameReport& frame = maker.make({});
+    std::fputs((lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
+}
+
+}  // namespace dioptre

@@ -1,0 +1,74 @@
+// dioptre: the program. Parses the command line, runs one command, turns errors into one line and an exit code.
+#include <cstdio>
+#include <exception>
+
+#include "commands.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/resources.hpp"
+#include "scene/gltf_loader.hpp"
+
+namespace dioptre {
+
+Scene loadScene(const Command& command) {
+    Scene scene =
+        loadGltf(command.scene.empty() ? resource("assets/scenes/studio.glb") : std::filesystem::path(command.scene));
+    for (const std::string& warning : scene.warnings) logWarning(warning);
+    return scene;
+}
+
+std::unique_ptr<Context> openHeadlessContext(const Command& command) {
+    switch (command.settings.system.context) {
+        case ContextChoice::automatic:
+            return createHeadlessContext("auto");
+        case ContextChoice::osmesa:
+            return createHeadlessContext("osmesa");
+        case ContextChoice::egl:
+            return createHeadlessContext("egl");
+    }
+    return createHeadlessContext("auto");
+}
+
+namespace {
+
+void run(const Command& command) {
+    if (command.printConfig) {
+        std::fputs(printSettings(command.settings).c_str(), stdout);
+        return;
+    }
+    switch (command.which) {
+        case Command::Which::nothingToDo:
+            break;
+        case Command::Which::view:
+            runView(command);
+            break;
+        case Command::Which::render:
+            runRender(command);
+            break;
+        case Command::Which::inspect:
+            runInspect(command);
+            break;
+        case Command::Which::compare:
+            runCompare(command);
+            break;
+    }
+}
+
+}  // namespace
+}  // namespace dioptre
+
+int main(int argc, char** argv) {
+    try {
+        dioptre::run(dioptre::parseCommandLine(argc, argv));
+        return 0;
+    } catch (const dioptre::InputError& error) {
+        dioptre::logError(error.what());
+        return 2;
+    } catch (const std::bad_alloc&) {
+        dioptre::logError("out of memory");
+        return 1;
+    } catch (const std::exception& error) {
+        dioptre::logError(error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,239 @@
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/image.hpp"
+#include "core/text.hpp"
+
+#ifndef DIOPTRE_VERSION
+#define DIOPTRE_VERSION "0.1.0"
+#endif
+
+namespace dioptre {
+
+namespace {
+
+constexpr double kMinFps = 0.001, kMaxFps = 1000.0;
+constexpr int kMaxFrames = 1000000;
+constexpr std::size_t kHelpColumns = 100, kHelpIndent = 30;
+
+/// Settings in the order of the command line, applied once the config file is read.
+using GivenSettings = std::vector<std::pair<std::string_view, std::string>>;
+
+/// CLI11's layout, with long descriptions broken into lines and without its doubled blank lines.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    HelpFormatter() { column_width(kHelpIndent); }
+
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+        const std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+        std::string out;
+        for (std::size_t begin = 0; begin < text.size();) {
+            const std::size_t end = std::min(text.find('\n', begin), text.size());
+            if (end > begin || !out.ends_with("\n\n")) out += wrapped(text.substr(begin, end - begin)) + "\n";
+            begin = end + 1;
+        }
+        return out;
+    }
+
+  private:
+    static std::string wrapped(std::string line) {
+        std::string out;
+        const std::size_t indent = line.starts_with("  ") ? kHelpIndent : 0;
+        while (line.size() > kHelpColumns) {
+            const std::size_t space = line.rfind(' ', kHelpColumns);
+            if (space == std::string::npos || space <= indent) break;
+            out += line.substr(0, space) + "\n";
+            line = std::string(indent, ' ') + line.substr(space + 1);
+        }
+        return out + line;
+    }
+};
+
+// "[0..1000 mm; default 63]": what --help says after the meaning.
+std::string helpOf(const Setting& setting) {
+    std::string text(setting.help);
+    if (setting.kind == SettingKind::boolean) return text;
+    // How a text is written stands beside its name already.
+    const std::string range = setting.form.empty() ? setting.rangeText() : std::string(setting.limits);
+    const std::string fallback = setting.defaultText.empty() ? "" : "default " + setting.defaultText;
+    if (range.empty() && fallback.empty()) return text;
+    return text + " [" + range + (range.empty() || fallback.empty() ? "" : "; ") + fallback + "]";
+}
+
+void addSettings(CLI::App& command, GivenSettings& given) {
+    for (const Setting& setting : settingsTable()) {
+        const std::string flag = "--" + std::string(setting.name);
+        const auto keep = [&given, name = setting.name](const std::string& text) { given.emplace_back(name, text); };
+        CLI::Option* option = nullptr;
+        if (setting.kind == SettingKind::boolean) {
+            // --swap-eyes=false takes back what a config file says
+            const auto flagged = [keep](std::int64_t count) { keep(count > 0 ? "true" : "false"); };
+            option = command.add_flag_function(flag, flagged, helpOf(setting));
+        } else {
+            option = command.add_option_function<std::string>(flag, keep, helpOf(setting));
+            option->type_name(setting.form.empty() ? "VALUE" : std::string(setting.form));
+        }
+        std::string group(setting.group);
+        group[0] = static_cast<char>(group[0] - 'a' + 'A');
+        option->group(group)->take_last();
+    }
+}
+
+void addConfig(CLI::App& command, Command& result) {
+    command.add_option("--config", result.config, "JSON file of settings, see config/default.json; options given win")
+        ->type_name("FILE")
+        ->take_last();
+    command.add_flag("--print-config", result.printConfig,
+                     "print all settings as JSON, as --config reads it, and stop");
+}
+
+void addLog(CLI::App& command, Command& result) {
+    command.add_option("--log", result.log, "CSV to write: time, gaze, focus, pupil, plan and ms of each frame")
+        ->type_name("FILE")
+        ->take_last();
+}
+
+void addScene(CLI::App& command, Command& result) {
+    command.add_option("SCENE", result.scene, "glTF file (.glb or .gltf); not given: the built-in scene")
+        ->type_name("FILE");
+}
+
+void addExamples(CLI::App& app) {
+    app.footer(
+        "dioptre COMMAND --help tells the options of a command.\n"
+        "Exit code: 0 done, 1 the run failed, 2 wrong usage or bad input.");
+    app.get_subcommand("render")->footer(
+        "Examples:\n"
+        "  dioptre render my.glb --out both.png --aperture-mm 8 --gaze 0.3,0.6\n"
+        "  dioptre render my.glb --out left.exr --eye left --focus 1.5 --size 1280x960\n"
+        "  dioptre render my.glb --out folder --frames 90 --gaze-trace gaze.csv --log frames.csv");
+    app.get_subcommand("view")->footer(
+        "Examples:\n"
+        "  dioptre view my.glb --display anaglyph --aperture-mm 8\n"
+        "  dioptre view my.glb --lens eye-60 --eye centre");
+    app.get_subcommand("inspect")->footer("Example: dioptre inspect my.glb --lens eye-60 --focus 0.4");
+    app.get_subcommand("compare")->footer("Example: dioptre compare reference.pfm mine.png");
+}
+
+// Everything that no option and no positional took: name the first and its nearest relative.
+void rejectExtras(const CLI::App& app) {
+    const std::vector<std::string> extras = app.remaining();
+    if (extras.empty()) return;
+    const auto dashed =
+        std::find_if(extras.begin(), extras.end(), [](const std::string& s) { return s.starts_with('-'); });
+    const bool isOption = dashed != extras.end();
+    const std::string& first = isOption ? *dashed : extras.front();
+    const bool isCommand = !isOption && app.get_parent() == nullptr;
+
+    std::vector<std::string> owned;
+    if (isCommand) {
+        for (const CLI::App* sub : app.get_subcommands({})) owned.push_back(sub->get_name());
+    } else {
+        for (const CLI::Option* option : app.get_options()) owned.push_back(option->get_name());
+    }
+    const std::vector<std::string_view> names(owned.begin(), owned.end());
+    const std::string text = isOption ? first.substr(0, first.find('=')) : first;
+    const std::string_view nearest = isOption || isCommand ? nearestName(text, names) : std::string_view();
+    throw InputError((isOption    ? "unknown option "
+                      : isCommand ? "unknown command "
+                                  : "unexpected argument ") +
+                     quote(text) + (nearest.empty() ? "" : ", did you mean " + quote(nearest)));
+}
+
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+}  // namespace
+
+Command parseCommandLine(int argc, const char* const* argv) {
+    Command result;
+    GivenSettings given;
+
+    CLI::App app("Dioptre: a stereo viewer for glTF scenes that sees as an eye does.", "dioptre");
+    app.set_version_flag("--version", "dioptre " DIOPTRE_VERSION);
+    app.require_subcommand(0, 1);  // none is an error below, after misspelt ones
+    app.allow_extras();
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_help_flag("-h,--help", "print this help and stop");
+    app.get_option("--version")->description("print the version and stop");
+
+    CLI::App* render = app.add_subcommand("render", "draw one picture, or a sequence, into files; needs no display");
+    addScene(*render, result);
+    render
+        ->add_option("--out", result.out,
+                     "picture to write (.png in sRGB, .exr or .pfm linear); with --frames: a folder")
+        ->type_name("FILE|FOLDER")
+        ->take_last();
+    render
+        ->add_option("--frames", result.frames,
+                     "length of a sequence, written with a page to look at [1..1000000; default 1: one picture]")
+        ->type_name("N")
+        ->take_last()
+        ->check(CLI::Range(1, kMaxFrames).description(""));
+    render->add_option("--fps", result.fps, "pictures per second of the sequence [0.001..1000; default 30]")
+        ->type_name("R")
+        ->take_last()
+        ->check(CLI::Range(kMinFps, kMaxFps).description(""));
+    CLI::App* view = app.add_subcommand("view", "show the scene in a window; the pointer is the gaze, Escape closes");
+    addScene(*view, result);
+    for (CLI::App* command : {render, view}) addLog(*command, result);
+    CLI::App* inspect = app.add_subcommand(
+        "inspect", "tell what a scene holds, what the lens can do with it, and what a view of it costs");
+    addScene(*inspect, result);
+    for (CLI::App* command : {render, view, inspect}) {
+        addConfig(*command, result);
+        addSettings(*command, given);
+    }
+    CLI::App* compare = app.add_subcommand("compare", "tell how far two pictures are apart: PSNR, SSIM and FLIP");
+    compare->add_option("A", result.compareA, "reference picture (.png, .exr or .pfm)")->type_name("FILE");
+    compare->add_option("B", result.compareB, "picture of the same size that is compared with it")->type_name("FILE");
+    for (CLI::App* command : {render, view, inspect, compare}) command->allow_extras();
+    addExamples(app);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+        app.exit(asked);
+        return result;
+    } catch (const CLI::ParseError& error) {
+        for (const CLI::App* command : {render, view, inspect, compare}) rejectExtras(*command);
+        throw InputError(oneLine(error.what()));
+    }
+    for (const CLI::App* command : {render, view, inspect, compare}) rejectExtras(*command);
+    rejectExtras(app);
+    if (app.get_subcommands().empty())
+        throw InputError("no command given: view, render, inspect or compare, see dioptre --help");
+
+    if (!result.config.empty()) loadSettings(result.config, result.settings);
+    for (const auto& [name, text] : given) {
+        try {
+            applySetting(result.settings, name, text);
+        } catch (const InputError& error) {
+            throw InputError("--" + std::string(error.what()));
+        }
+    }
+    result.which = render->parsed()    ? Command::Which::render
+                   : view->parsed()    ? Command::Which::view
+                   : inspect->parsed() ? Command::Which::inspect
+                                       : Command::Which::compare;
+    if (result.which == Command::Which::render && !result.printConfig) {
+        if (result.out.empty()) throw InputError("render: --out FILE is missing");
+        if (result.frames == 1) requireImageName(result.out);
+    }
+    if (result.which == Command::Which::compare && result.compareB.empty())
+        throw InputError("compare: two pictures are needed, A and B");
+    return result;
+}
+
+}  // namespace dioptre

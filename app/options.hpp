@@ -1,0 +1,30 @@
+// The command line: subcommands, and one option per row of the settings table. CLI11 stays in options.cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/settings.hpp"
+
+namespace dioptre {
+
+struct Command {
+    enum class Which { nothingToDo, view, render, inspect, compare };
+
+    Which which = Which::nothingToDo;  // --help or --version was printed, or --print-config asked for alone
+    std::string scene;                 // a file or a built-in scene's name; empty: the default one
+    std::filesystem::path out;         // render: picture, or folder of a sequence
+    int frames = 1;                    // render: > 1 draws a sequence into the folder `out`
+    double fps = 30.0;                 // of the sequence, frames per second
+    std::string compareA, compareB;    // compare: two picture files
+    std::filesystem::path log;         // render, view: CSV of what was shown; empty: none
+    std::filesystem::path config;      // already read into settings
+    bool printConfig = false;          // print printSettings(settings) and stop
+    Settings settings;                 // defaults < config < command line
+};
+
+/// InputError (one line, the nearest known option for a misspelt one) for wrong usage or a bad config file. `--help`
+/// and `--version` print to stdout here and give nothingToDo.
+Command parseCommandLine(int argc, const char* const* argv);
+
+}  // namespace dioptre
