@@ -14,8 +14,6 @@ layout(location = 0) out vec4 behind;  // rgb·valid, valid
 #ifdef FRONT
 layout(location = 1) out vec4 front;   // rgb·coverage, coverage
 
-// A foreground is "nearer" than another from this ratio of their radii on.
-const float kNearerRatio = 1.3;
 // Softness of the edge of a tap's reach, in radii: the width of a tap.
 const float kReachSoftness = 0.3;
 // A small circle's taps stand for more than their share of a large one's; at most by this factor.
@@ -30,7 +28,7 @@ const float kOneTapPerRadius = 0.39;
 /// but no finer than its own blur asks for.
 vec4 hidden(vec2 uv, float level, int levels) {
     float seen = textureLod(layers, vec3(uv, 2.0), level).a;
-    float radius = baseLargest * textureLod(layers, vec3(uv, 0.0), level).a / max(seen, 1e-3);
+    float radius = radiusOfBaseWeight(textureLod(layers, vec3(uv, 0.0), level).a / max(seen, 1e-3), baseLargest);
     float finest = max(floor(log2(kOneTapPerRadius * radius + 1e-6) + 0.5), 0.0);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < levels; ++i) {
@@ -44,7 +42,7 @@ vec4 hidden(vec2 uv, float level, int levels) {
 vec4 nearerForeground(vec2 uv, vec2 texel, float r, float mine) {
     float level = tapLevel(r);
     float circle = tapCircle(r, level);
-    int n = r > mine * kNearerRatio + kSharpRadius ? kTaps : 0;
+    int n = spreadsOver(r, mine) ? kTaps : 0;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < n; ++i) {
         vec2 at = uv + kDisc[i] * circle * texel;

@@ -8,12 +8,17 @@ uniform int encode;    // to sRGB, for a window
 
 layout(location = 0) out vec4 color;
 
-vec3 eye(sampler2D picture, vec2 uv) { return textureLod(picture, uv, 0.0).rgb; }
+// At a place in the eye's pixels (of a whole picture that is stretched: filtered).
+vec3 eye(sampler2D picture, vec2 at) {
+    if (encode != 0) return textureLod(picture, at / vec2(textureSize(picture, 0)), 0.0).rgb;
+    return texelFetch(picture, ivec2(at), 0).rgb;
+}
 
 // Squeezed to half width: two source pixels to one, so that nothing is skipped.
-vec3 squeezed(sampler2D picture, vec2 uv) {
-    float quarter = 0.5 / float(textureSize(picture, 0).x);
-    return 0.5 * (eye(picture, uv - vec2(quarter, 0.0)) + eye(picture, uv + vec2(quarter, 0.0)));
+vec3 squeezed(sampler2D picture, vec2 at) {
+    int x = 2 * int(at.x), last = textureSize(picture, 0).x - 1;
+    ivec2 first = ivec2(min(x, last), at.y), second = ivec2(min(x + 1, last), at.y);
+    return 0.5 * (texelFetch(picture, first, 0).rgb + texelFetch(picture, second, 0).rgb);
 }
 
 // Dubois 2001, "A projection method to generate anaglyph stereo images": least squares for red-cyan glasses, linear RGB.
@@ -46,14 +51,18 @@ vec3 sRgb(vec3 c) {
 }
 
 void main() {
-    vec2 uv = gl_FragCoord.xy / size;
-    bool second = mode == 3 ? uv.y < 0.5 : uv.x >= 0.5;
-    vec2 half_ = mode == 3 ? vec2(uv.x, fract(uv.y * 2.0)) : vec2(fract(uv.x * 2.0), uv.y);
+    // Both eyes' halves begin at a whole pixel, so that equal pictures stay equal to the bit; the left eye is above.
+    vec2 at = gl_FragCoord.xy;
+    vec2 halves = ceil(0.5 * size);
+    bool second = mode == 3 ? at.y < halves.y : at.x >= halves.x;
+    vec2 inHalf = at;
+    if (mode == 3 && !second) inHalf.y -= halves.y;
+    if (mode != 3 && second) inHalf.x -= halves.x;
     vec3 c;
-    if (mode == 0) c = eye(leftEye, uv);
-    else if (mode == 2) c = second ? squeezed(rightEye, half_) : squeezed(leftEye, half_);
-    else if (mode == 4) c = anaglyph(eye(leftEye, uv), eye(rightEye, uv));
-    else c = second ? eye(rightEye, half_) : eye(leftEye, half_);
+    if (mode == 0) c = eye(leftEye, at * (vec2(textureSize(leftEye, 0)) / size));
+    else if (mode == 2) c = second ? squeezed(rightEye, inHalf) : squeezed(leftEye, inHalf);
+    else if (mode == 4) c = anaglyph(eye(leftEye, at), eye(rightEye, at));
+    else c = second ? eye(rightEye, inHalf) : eye(leftEye, inHalf);
     if (neutral != 0) c = toneMapNeutral(c);
     if (encode != 0) c = sRgb(c);
     color = vec4(c, 1.0);

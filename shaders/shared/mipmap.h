@@ -50,6 +50,13 @@ DIOPTRE_FUNCTION float radiusOfBaseWeight(float weight, float largest) {
     return weight * largest + kSharpRadius;
 }
 
+// Eq. 10: a foreground blurred to `radius` spreads over what is blurred to `mine` in front of focus (0: not in front) if
+// it is nearer. From this ratio on two foregrounds count as two.
+DIOPTRE_CONST float kNearerRatio = 1.3f;
+DIOPTRE_FUNCTION bool spreadsOver(float radius, float mine) {
+    return radius > mine * kNearerRatio + kSharpRadius;
+}
+
 // Variance along one axis of what the half-size layers do to the picture, px²: one tap at level 0, and at level l > 0
 // in units of 4^(l+1) (box of the first level, binomials of the others, bilinear reading), then the bilinear step back
 // to full size.
@@ -65,8 +72,7 @@ DIOPTRE_CONST float kLeastVariance = 1.3f;
 // Level of the half-size layers (0: their full size) at which a disc's taps are read: eq. 6, whole levels, so that a
 // tap is one bilinear fetch; tapCircle() makes up for the rounding.
 DIOPTRE_FUNCTION float tapLevel(float radius) {
-    float m = 1.0f + log2(max(kSigmaScale * kTapSigmaPerCocDiameter * 2.0f * radius, 1e-6f));
-    return max(floor(m - 1.0f + 0.5f), 0.0f);
+    return max(floor(levelForSigma(kTapSigmaPerCocDiameter * 2.0f * radius) - 0.5f), 0.0f);
 }
 // Radius of the taps' pattern, half-size texels, so that taps at `level` and pattern together have the disc's variance,
 // radius²/4 along one axis.
