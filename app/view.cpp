@@ -45,6 +45,7 @@ void runView(const Command& command) {
     while (!glfwWindowShouldClose(window.handle()) && glfwGetKey(window.handle(), GLFW_KEY_ESCAPE) != GLFW_PRESS) {
         FrameMaker::Input input;
         input.time = glfwGetTime() - start;
+        input.mayLag = true;
         // A trace plays; without one, the pointer is the gaze.
         if (settings.focus.gazeTrace.empty()) input.gaze = pointerGaze(window.handle(), display);
         const FrameReport& frame = maker.make(input);

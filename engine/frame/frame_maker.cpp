@@ -111,23 +111,32 @@ void FrameMaker::placeEyes(const View& head) {
     eyes_[0].view = eyeView(eye, head, ipd, screen);
 }
 
-Dioptres FrameMaker::focusNow(const View& head, const GazeSample& gaze, double time) {
-    const FocusChoice& choice = settings_.focus.focus;
-    if (choice.mode == FocusMode::infinity) return Dioptres(0.0);
-    if (choice.mode == FocusMode::metres) return vergence(Metres(choice.metres));
-    const View centre = eyeView(Eye::centre, head, Metres(settings_.view.ipdMm * 1e-3), screenOf(settings_.view));
+std::optional<Dioptres> FrameMaker::gazeDepth(const View& centre, glm::dvec2 gaze, bool mayLag) {
     std::vector<View> views;
     for (const EyePicture& eye : eyes_) views.push_back(eye.view);
     const Radians error(glm::radians(settings_.focus.gazeErrorDeg));
-    const auto read = [&](glm::dvec2 at) { return probe_.vergence(scene_, views, centre, at, error, report_.passes); };
-    report_.underGaze = gaze.valid ? read(gaze.position) : std::nullopt;
+    if (!mayLag) return probe_.vergence(scene_, views, centre, gaze, error, report_.passes);
+    // The last reading that is finished; the next one starts only then, so that none is dropped unread.
+    if (const auto reading = probe_.finish(false)) lagging_ = reading->vergence;
+    if (!probe_.running()) probe_.start(scene_, views, centre, gaze, error, report_.passes);
+    return lagging_;
+}
+
+Dioptres FrameMaker::focusNow(const View& head, const Input& input) {
+    const FocusChoice& choice = settings_.focus.focus;
+    if (choice.mode == FocusMode::infinity) return Dioptres(0.0);
+    if (choice.mode == FocusMode::metres) return vergence(Metres(choice.metres));
+    constexpr glm::dvec2 kMiddle(0.5, 0.5);
+    const GazeSample& gaze = report_.gaze;
+    const View centre = eyeView(Eye::centre, head, Metres(settings_.view.ipdMm * 1e-3), screenOf(settings_.view));
     // A first frame, or a jump back, has no past to move from.
-    if (!lastTime_ || time < *lastTime_) {
-        const auto settled = report_.underGaze ? report_.underGaze : read({0.5, 0.5});
-        filter_.jump(time, settled.value_or(Dioptres(0.0)));
-    }
-    const Dioptres middle = gaze.valid ? Dioptres(std::nan("")) : read({0.5, 0.5}).value_or(Dioptres(0.0));
-    filter_.sample({time, report_.underGaze, gazeDegrees(centre, gaze.position), gaze.valid, middle});
+    const bool settle = !lastTime_ || input.time < *lastTime_;
+    // While the gaze is lost, the middle is watched: focus drifts there in the end.
+    const auto depth = gazeDepth(centre, gaze.valid ? gaze.position : kMiddle, input.mayLag && !settle);
+    report_.underGaze = gaze.valid ? depth : std::nullopt;
+    if (settle) filter_.jump(input.time, depth.value_or(Dioptres(0.0)));
+    const Dioptres middle = gaze.valid ? Dioptres(std::nan("")) : depth.value_or(Dioptres(0.0));
+    filter_.sample({input.time, report_.underGaze, gazeDegrees(centre, gaze.position), gaze.valid, middle});
     return filter_.focus();
 }
 
@@ -141,7 +150,7 @@ const FrameReport& FrameMaker::make(const Input& input) {
     // Head pose and gaze, depth at the gaze, focus
     const View head = headView(input);
     placeEyes(head);
-    const Dioptres wanted = focusNow(head, report_.gaze, input.time);
+    const Dioptres wanted = focusNow(head, input);
     lastTime_ = input.time;
 
     // Lens or eye: what it can reach

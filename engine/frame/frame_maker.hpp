@@ -24,7 +24,7 @@ namespace dioptre {
 struct FrameReport {
     double time = 0.0;  // seconds
     GazeSample gaze;
-    std::optional<Dioptres> underGaze;  // measured only where focus follows the gaze
+    std::optional<Dioptres> underGaze;  // measured only where focus follows the gaze, and there is something to measure
     ResolvedLens lens;
     std::string plan;           // "mipmap, msaa 4"
     double milliseconds = 0.0;  // of the finished frame
@@ -47,6 +47,8 @@ class FrameMaker {
         double time = 0.0;
         std::optional<glm::dvec2> gaze;  // 0..1 from the top left; overrides trace and setting
         std::optional<Pose> head;        // in the start view's frame; overrides the trace
+        // Depth under the gaze is read when the GL has it, usually a frame late, instead of waiting for it.
+        bool mayLag = false;
     };
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.
@@ -71,7 +73,8 @@ class FrameMaker {
     GazeSample gazeNow(const Input& input) const;
     View headView(const Input& input) const;
     void placeEyes(const View& head);
-    Dioptres focusNow(const View& head, const GazeSample& gaze, double time);
+    Dioptres focusNow(const View& head, const Input& input);
+    std::optional<Dioptres> gazeDepth(const View& centre, glm::dvec2 gaze, bool mayLag);
     Composition composition() const;
 
     Settings settings_;
@@ -83,6 +86,7 @@ class FrameMaker {
     std::vector<HeadSample> headTrace_;
     GazeProbe probe_;
     FocusFilter filter_;
+    std::optional<Dioptres> lagging_;  // the last depth read without waiting
     std::optional<double> lastTime_;
     std::vector<EyePicture> eyes_;  // one, or left and right
     Compositor compositor_;

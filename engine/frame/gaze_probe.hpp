@@ -1,5 +1,5 @@
-// What lies under the gaze: a small depth-only drawing of each eye's region around it, so that the rest of the frame
-// need not wait for its own picture to be drawn before focus is known.
+// What lies under the gaze: a small depth-only drawing of each eye's region around it, read back either at once or, so
+// that nothing waits, when the GL has finished it.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,38 @@ namespace dioptre {
 
 class GazeProbe {
   public:
-    /// Exact (waits for the GL): weighted median vergence over a cone around `gaze` (0..1 from the top left of the
-    /// `centre` view), from what the eyes' views of the same rig see. `error` is the tracker's standard deviation.
-    /// nullopt when the cone lies outside the picture; the sky is 0 D.
+    /// Starts a reading: weighted median vergence over a cone around `gaze` (0..1 from the top left of the `centre`
+    /// view), from what the eyes' views of the same rig see; `error` is the tracker's standard deviation. A reading
+    /// not yet finished is dropped.
+    void start(const GpuScene& scene, std::span<const View> eyes, const View& centre, glm::dvec2 gaze, Radians error,
+               PassLog& log);
+
+    struct Reading {
+        std::optional<Dioptres> vergence;  // none: the cone lies outside the picture; 0 is the sky
+    };
+    /// The reading that was started, once; none while the GL still works on it (never with `wait`) or none was started.
+    std::optional<Reading> finish(bool wait);
+    bool running() const { return started_; }
+
+    /// Both in one: exact, and waits.
     std::optional<Dioptres> vergence(const GpuScene& scene, std::span<const View> eyes, const View& centre,
                                      glm::dvec2 gaze, Radians error, PassLog& log);
 
   private:
-    std::vector<float> readRegion(const GpuScene& scene, const View& eye, const PixelRegion& region);
+    struct EyeReading {
+        PixelRegion region;
+        MidpointShift shift;
+        double near = 0.0;
+        Buffer pixels;  // stored depth, bottom row first
+    };
+    void drawRegion(const GpuScene& scene, const View& eye, EyeReading& reading);
 
     Texture depth_;
     Framebuffer target_;
+    bool started_ = false;
+    glm::dvec2 pixel_{0.0}, sigma_{0.0};
+    std::vector<EyeReading> eyes_;
+    Fence fence_;
 };
 
 }  // namespace dioptre

@@ -34,7 +34,7 @@ std::size_t texelBytes(GLenum format) {
         case GL_RGBA32F:
             return 16;
         default:
-            assert(!"texture format without a known size");
+            assert(false && "texture format without a known size");
             return 16;
     }
 }
@@ -126,6 +126,26 @@ Framebuffer::Framebuffer(std::span<const Attachment> colors, const Texture* dept
 void Framebuffer::bind() const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name());
     glViewport(0, 0, width_, height_);
+}
+
+Fence Fence::insert() {
+    Fence fence;
+    fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    return fence;
+}
+
+Fence::~Fence() {
+    if (sync_) glDeleteSync(sync_);
+}
+
+bool Fence::reached(bool wait) const {
+    if (!sync_) return true;
+    for (;;) {
+        constexpr GLuint64 kNanoseconds = 1'000'000'000;
+        const GLenum state = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kNanoseconds : 0);
+        if (state != GL_TIMEOUT_EXPIRED) return true;
+        if (!wait) return false;
+    }
 }
 
 VertexArray makeVertexArray(std::string_view text) {

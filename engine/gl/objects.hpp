@@ -117,6 +117,27 @@ class Framebuffer : public Handle<FramebufferTraits> {
     int width_ = 0, height_ = 0;
 };
 
+/// A point in the GL's work that can be waited for.
+class Fence {
+  public:
+    Fence() = default;
+    static Fence insert();
+    ~Fence();
+    Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+    Fence& operator=(Fence&& other) noexcept {
+        std::swap(sync_, other.sync_);
+        return *this;
+    }
+    Fence(const Fence&) = delete;
+    Fence& operator=(const Fence&) = delete;
+
+    /// True once everything before it is done; with `wait`, always.
+    bool reached(bool wait) const;
+
+  private:
+    GLsync sync_ = nullptr;
+};
+
 VertexArray makeVertexArray(std::string_view label);
 
 /// Reads a level as floats, row 0 on top (GL stores it at the bottom). Stalls.

@@ -83,7 +83,8 @@ void computeTangents(Primitive& primitive) {
         const glm::dvec3 normal(vertex.normal);
         const glm::dvec3 inPlane = sums[i].u - normal * glm::dot(normal, sums[i].u);
         const glm::vec3 tangent = unitOr(inPlane, anyOrthogonal(vertex.normal));
-        const bool left = glm::dot(glm::cross(normal, glm::dvec3(tangent)), sums[i].v) < 0.0;
+        // The bitangent, cross(n, t) w, points up in the normal map; v runs down (glTF 2.0, 3.9.3).
+        const bool left = glm::dot(glm::cross(normal, glm::dvec3(tangent)), sums[i].v) > 0.0;
         vertex.tangent = glm::vec4(tangent, left ? -1.0f : 1.0f);
     }
 }

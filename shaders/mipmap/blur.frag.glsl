@@ -24,15 +24,17 @@ const int kFillLevels = 4;
 // Half-size texels per px of radius for which one tap alone has a disc's variance: r²/4 = kTapVariance (2 s)².
 const float kOneTapPerRadius = 0.39;
 
-/// The rest of the picture at a place that the foreground hides: of so many levels the finest that has something here,
-/// but no finer than its own blur asks for.
+/// The rest of the picture at a place that a foreground with taps at `level` hides: of so many levels the finest that
+/// has something here, but no finer than its own blur asks for.
 vec4 hidden(vec2 uv, float level, int levels) {
-    float seen = textureLod(layers, vec3(uv, 2.0), level).a;
-    float radius = radiusOfBaseWeight(textureLod(layers, vec3(uv, 0.0), level).a / max(seen, 1e-3), baseLargest);
+    float seen = textureLod(layers, vec3(uv, 2.0), level + 1.0).a;
+    float radius = radiusOfBaseWeight(textureLod(layers, vec3(uv, 0.0), level + 1.0).a / max(seen, 1e-3), baseLargest);
     float finest = max(floor(log2(kOneTapPerRadius * radius + 1e-6) + 0.5), 0.0);
+    // As far as the blur sees past the edge of what hides: texels of the last level are as large as its circle.
+    float step = max(floor((level + 3.0 - finest) / float(kFillLevels - 1) + 0.5), 1.0);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < levels; ++i) {
-        vec4 t = textureLod(layers, vec3(uv, 2.0), finest + float(i));
+        vec4 t = textureLod(layers, vec3(uv, 2.0), finest + step * float(i));
         sum += vec4(t.rgb / max(t.a, 1e-3), 1.0) * (1.0 - sum.a) * clamp(t.a * kFillGain, 0.0, 1.0);
     }
     return sum.a > 1e-3 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
@@ -85,7 +87,7 @@ void main() {
     behind = own.a > 1e-3 ? vec4(own.rgb / own.a, 1.0) * clamp(r - kSharpRadius, 0.0, 1.0) : vec4(0.0);
 #ifdef FRONT
     // A loop of no rounds costs one where branches do not: CPU rasterisers run both sides of an if.
-    vec4 rest = hidden(uv, level + 1.0, inFront ? kFillLevels : 0);
+    vec4 rest = hidden(uv, level, inFront ? kFillLevels : 0);
     if (inFront) behind = rest;
     ivec2 tile = min(ivec2(gl_FragCoord.xy * reachScale), textureSize(reach, 0) - 1);
     vec4 nearer = nearerForeground(uv, texel, texelFetch(reach, tile, 0).x, inFront ? r : 0.0);

@@ -102,7 +102,7 @@ TEST(GltfLoaderTest, Tangents) {
     gltf["materials"][0]["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
     const Scene computed = load(gltf);
     EXPECT_EQ(computed.materials[0].normalScale, 0.5f);
-    EXPECT_EQ(computed.meshes[0].primitives[0].vertices[0].tangent, glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(computed.meshes[0].primitives[0].vertices[0].tangent, glm::vec4(1, 0, 0, -1));
     attributesOf(gltf)["TANGENT"] =
         addAccessor(gltf, bytesOf<float>({0, 2, 0, -1, 0, 1, 0, 1, 0, 0, 0, 1}), 5126, "VEC4", 3);
     const Scene given = load(gltf);

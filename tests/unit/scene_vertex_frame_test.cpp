@@ -17,16 +17,16 @@ Primitive square(const glm::vec2& scale) {
 TEST(VertexFrameTest, TangentRunsAlongU) {
     Primitive p = square({2, 3});
     computeTangents(p);
-    for (const Vertex& v : p.vertices) EXPECT_EQ(v.tangent, glm::vec4(1, 0, 0, 1));
+    for (const Vertex& v : p.vertices) EXPECT_EQ(v.tangent, glm::vec4(1, 0, 0, -1));
 }
 
 TEST(VertexFrameTest, MirroredUvTurnsTheHandedness) {
     Primitive p = square({-1, 1});
     computeTangents(p);
-    for (const Vertex& v : p.vertices) EXPECT_EQ(v.tangent, glm::vec4(-1, 0, 0, -1));
+    for (const Vertex& v : p.vertices) EXPECT_EQ(v.tangent, glm::vec4(-1, 0, 0, 1));
     p = square({1, -1});
     computeTangents(p);
-    for (const Vertex& v : p.vertices) EXPECT_EQ(v.tangent, glm::vec4(1, 0, 0, -1));
+    for (const Vertex& v : p.vertices) EXPECT_EQ(v.tangent, glm::vec4(1, 0, 0, 1));
 }
 
 TEST(VertexFrameTest, FlatUvStillGivesAnOrthogonalUnitTangent) {
