@@ -62,7 +62,8 @@ std::optional<GazeProbe::Reading> GazeProbe::finish(bool wait) {
     std::vector<std::vector<float>> depths;
     std::vector<EyeVergence> samples;
     for (const EyeReading& eye : eyes_) {
-        const auto width = static_cast<std::size_t>(eye.region.width), height = static_cast<std::size_t>(eye.region.height);
+        const auto width = static_cast<std::size_t>(eye.region.width),
+                   height = static_cast<std::size_t>(eye.region.height);
         std::vector<float> stored(width * height), vergence(width * height);
         glGetNamedBufferSubData(eye.pixels.name(), 0, static_cast<GLsizeiptr>(stored.size() * sizeof(float)),
                                 stored.data());

@@ -15,7 +15,8 @@ void makeFlat(Primitive& primitive);
 void fillNormals(Primitive& primitive, const std::vector<bool>& missing);
 
 /// Tangents along increasing u, orthogonal to the normal, w = handedness: bitangent = w * cross(normal, tangent) runs
-/// along decreasing v, up in the picture (glTF 2.0, 3.9.3). Vertices whose texture coordinates do not span a plane get some tangent.
+/// along decreasing v, up in the picture (glTF 2.0, 3.9.3). Vertices whose texture coordinates do not span a plane get
+/// some tangent.
 void computeTangents(Primitive& primitive);
 
 /// Some unit vector orthogonal to the unit vector `normal`.

@@ -76,7 +76,7 @@ void main() {
     float level = tapLevel(r);
     float circle = tapCircle(r, level);
     float layer = inFront ? 1.0 : 0.0;
-    float least = inFront ? 1.0 : max(baseWeight(r, baseLargest), 1e-4);
+    float least = inFront ? 1.0 : max(baseWeight(r, baseLargest), kLeastWeight);
     int n = r > kSharpRadius ? kTaps : 0;
     vec4 own = vec4(0.0);
     for (int i = 0; i < n; ++i) {

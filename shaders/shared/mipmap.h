@@ -40,14 +40,18 @@ DIOPTRE_FUNCTION float frontShare(float signedRadius) {
     return smoothstep(kFrontBegins, kFrontComplete, -signedRadius);
 }
 
-// Eq. 9 made continuous: a pixel gives to a blur behind focus in proportion to its own blur, in focus (below
-// kSharpRadius) nothing. `largest`: the layer's largest radius.
+// Eq. 9 made continuous: a pixel gives to a blur behind focus by the square of its own blur, in focus (below
+// kSharpRadius) nothing. `largest`: the layer's largest radius, no more than kMostBaseRadius. Weights stay above
+// kLeastWeight, the least normal half float: below, they could no longer carry a colour.
 DIOPTRE_CONST float kSharpRadius = 0.5f;
+DIOPTRE_CONST float kMostBaseRadius = 200.0f;
+DIOPTRE_CONST float kLeastWeight = 6.2e-5f;
 DIOPTRE_FUNCTION float baseWeight(float radius, float largest) {
-    return clamp((radius - kSharpRadius) / largest, 0.0f, 1.0f);
+    float x = clamp((radius - kSharpRadius) / largest, 0.0f, 1.0f);
+    return x > 0.0f ? max(x * x, kLeastWeight) : 0.0f;
 }
 DIOPTRE_FUNCTION float radiusOfBaseWeight(float weight, float largest) {
-    return weight * largest + kSharpRadius;
+    return sqrt(weight) * largest + kSharpRadius;
 }
 
 // Eq. 10: a foreground blurred to `radius` spreads over what is blurred to `mine` in front of focus (0: not in front) if

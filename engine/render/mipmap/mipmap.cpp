@@ -27,7 +27,7 @@ Mipmap::Blur Mipmap::requiredBlur(const EyeFrame& frame) {
     const auto nearest = static_cast<float>(range.nearest * frame.view.near.value);
     // The background, infinitely far, counts too: it is seen wherever nothing is. No less than the radius below which
     // a foreground belongs to the base layer.
-    blur.base = std::max(blur.coc.bias, mipmap::kFrontComplete);
+    blur.base = std::clamp(blur.coc.bias, mipmap::kFrontComplete, mipmap::kMostBaseRadius);
     blur.front = blur.coc.radius(nearest) < -mipmap::kFrontBegins;
     return blur;
 }
@@ -85,7 +85,7 @@ void Mipmap::buildPyramid(const Blur& blur, PassLog& log) {
         passes.split.draw();
     }
     // As deep as the largest blur needs. With a foreground to the end: its largest radius is at the top.
-    const int deepest = static_cast<int>(mipmap::tapLevel(blur.base)) + 1;
+    const int deepest = static_cast<int>(mipmap::tapLevel(std::max(blur.coc.bias, mipmap::kFrontComplete))) + 1;
     const int levels = blur.front ? levelCount_ : std::min(levelCount_, deepest);
     PassScope scope(log, "pyramid");
     const auto readLevels = [&](int first, int last) {
