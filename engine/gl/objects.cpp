@@ -74,8 +74,8 @@ std::size_t Texture::bytes() const {
            static_cast<std::size_t>(std::max(1, spec_.samples) * std::max(1, spec_.layers));
 }
 
-void Texture::setLinear(bool mip) {
-    glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, mip ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+void Texture::setLinear(bool levels) {
+    glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, levels ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR);
     glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 

@@ -74,8 +74,8 @@ class Texture : public Handle<TextureTraits> {
     int width() const { return spec_.width; }
     int height() const { return spec_.height; }
     std::size_t bytes() const;
-    /// Linear in a level and, with `mip`, between levels.
-    void setLinear(bool mip);
+    /// Linear within a level; with `levels`, of the level nearest to the one asked for.
+    void setLinear(bool levels);
     void bind(GLuint unit) const { glBindTextureUnit(unit, name()); }
 
   private:

@@ -84,9 +84,10 @@ void Mipmap::buildPyramid(const Blur& blur, PassLog& log) {
         setLayers(passes.split.program(), blur.coc, blur.base);
         passes.split.draw();
     }
-    // As deep as the largest blur needs. With a foreground to the end: its largest radius is at the top.
+    // As deep as the largest blur needs; with a foreground to the end: its largest radius is at the top. Never one level
+    // alone: some drivers then switch to a cheaper fetch, and the price would jump in the middle of a focus pull.
     const int deepest = static_cast<int>(mipmap::tapLevel(std::max(blur.coc.bias, mipmap::kFrontComplete))) + 1;
-    const int levels = blur.front ? levelCount_ : std::min(levelCount_, deepest);
+    const int levels = blur.front ? levelCount_ : std::min(levelCount_, std::max(deepest, 2));
     PassScope scope(log, "pyramid");
     const auto readLevels = [&](int first, int last) {
         for (const Texture* texture : {&layers_, &spread_}) {
