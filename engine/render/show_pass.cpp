@@ -1,8 +1,5 @@
 #include "render/show_pass.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 
 namespace dioptre {
@@ -35,16 +32,12 @@ const Texture& ShowPass::draw(const EyeFrame& frame, const Texture& depth) {
     PassScope scope(frame.log, "show");
     if (!fromDepth_.program()) fromDepth_ = FullscreenPass("common/show_depth.frag.glsl");
     bindTarget(frame.view.width, frame.view.height);
-    const VergenceRange range = frame.scene.vergenceRange(frame.view);
     const CocTransform coc = cocTransform(frame);
-    const double near = frame.view.near.value;
-    const float largest = std::max({std::abs(coc.radius(static_cast<float>(range.nearest * near))),
-                                    std::abs(coc.radius(static_cast<float>(range.farthest * near))), 1e-6f});
     depth.bind(0);
     const Program& program = fromDepth_.program();
     program.set("mode", mode);
     program.set("coc", glm::vec2(coc.scale, coc.bias));
-    program.set("largest", mode == 0 ? static_cast<float>(std::max(range.nearest * near, 1e-12)) : largest);
+    program.set("near", static_cast<float>(frame.view.near.value));
     fromDepth_.draw();
     return output_;
 }

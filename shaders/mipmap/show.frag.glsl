@@ -1,5 +1,5 @@
 // Stages of the mipmap technique as pictures (mipmap.hpp): 0 degree of foreground neighbours' blur, white from a radius
-// of 32 px on; 1 level of the blur, white at the 6th; 2 a level of the pyramid, texel by texel.
+// of 16 px on; 1 level of the blur, white at the 5th; 2 a level of the pyramid, texel by texel.
 #include "mipmap/layers.glsl"
 layout(binding = 0) uniform sampler2D depth;
 layout(binding = 1) uniform sampler2D reach;
@@ -11,8 +11,8 @@ uniform vec2 size;  // of the picture
 
 layout(location = 0) out vec4 color;
 
-const float kWhiteRadius = 32.0;
-const float kWhiteLevel = 6.0;
+const float kWhiteRadius = 16.0;
+const float kWhiteLevel = 5.0;
 
 ivec2 texelOf(ivec2 texels) { return min(ivec2(gl_FragCoord.xy / size * vec2(texels)), texels - 1); }
 

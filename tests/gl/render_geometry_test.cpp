@@ -58,11 +58,11 @@ TEST_F(GeometryGLTest, MultisamplingKeepsMeansAndTheNearestDepth) {
     EXPECT_NEAR(static_cast<double>(picture.at(40, 45)), 0.5, 0.26);  // 4 samples: 1 to 3 of them
     EXPECT_GT(picture.at(40, 45), 0.0f);
     EXPECT_LT(picture.at(40, 45), 1.0f);
-    // Vergence of the edge pixel is the square's, 1 D, white; the wall's is a quarter.
+    // Vergence of the edge pixel is the square's, 1 D, shown as 1/(1 + 1); the wall's is a quarter of a dioptre.
     shot.show.stage = ShowChoice::vergence;
     const Image depth = draw(TechniqueChoice::pinhole, scene, shot);
-    EXPECT_NEAR(static_cast<double>(depth.at(40, 45)), 1.0, 0.001);
-    EXPECT_NEAR(static_cast<double>(depth.at(39, 45)), 0.25, 0.001);
+    EXPECT_NEAR(static_cast<double>(depth.at(40, 45)), 0.5, 0.001);
+    EXPECT_NEAR(static_cast<double>(depth.at(39, 45)), 0.2, 0.001);
 }
 
 TEST_F(GeometryGLTest, TexturesStandUpright) {
@@ -151,7 +151,7 @@ TEST_F(GeometryGLTest, MaskedTexelsAreNotThere) {
         Shot shot;
         shot.show.stage = ShowChoice::vergence;
         const Image depth = draw(TechniqueChoice::pinhole, scene, shot);
-        EXPECT_NEAR(static_cast<double>(depth.at(50, 50)), cutoff < 0.5f ? 1.0 : 0.5, 0.001) << "cut-off " << cutoff;
+        EXPECT_NEAR(static_cast<double>(depth.at(50, 50)), cutoff < 0.5f ? 0.5 : 1.0 / 3.0, 0.001) << "cut-off " << cutoff;
     }
 }
 
