@@ -14,6 +14,9 @@ namespace dioptre {
 
 namespace {
 
+// What a refining technique may take of a frame: input still feels immediate.
+constexpr double kRefineMilliseconds = 50.0;
+
 /// Where the pointer is in its eye's picture, 0..1 from the top left; none outside the window.
 std::optional<glm::dvec2> pointerGaze(GLFWwindow* window, DisplayChoice display) {
     int width = 0, height = 0;
@@ -46,6 +49,7 @@ void runView(const Command& command) {
         FrameMaker::Input input;
         input.time = glfwGetTime() - start;
         input.mayLag = true;
+        input.budgetMilliseconds = kRefineMilliseconds;
         // A trace plays; without one, the pointer is the gaze.
         if (settings.focus.gazeTrace.empty()) input.gaze = pointerGaze(window.handle(), display);
         const FrameReport& frame = maker.make(input);

@@ -71,7 +71,10 @@ inline bool read(const Setting& setting, std::string_view text, double& value) {
 
 inline bool read(const Setting& setting, std::string_view text, int& value) {
     const auto number = parseInteger(text);
-    if (!number || choiceIndex(setting, std::to_string(*number)) == setting.choices.size()) return false;
+    if (!number) return false;
+    if (setting.choices.empty() ? *number < setting.min || *number > setting.max
+                                : choiceIndex(setting, std::to_string(*number)) == setting.choices.size())
+        return false;
     value = *number;
     return true;
 }

@@ -74,6 +74,17 @@ std::vector<Setting> makeTable() {
                                          .unit = "cd/m^2",
                                          .min = 1e-6,
                                          .max = 1e6}),
+        row<&S::lens, &Lens::blades>({.group = "lens",
+                                      .name = "blades",
+                                      .help = "corners of the aperture as the reference draws it; below 3 it is round",
+                                      .min = 0.0,
+                                      .max = 32.0}),
+        row<&S::lens, &Lens::bladeRotationDeg>({.group = "lens",
+                                                .name = "blade-rotation-deg",
+                                                .help = "where the aperture's first corner is, from the right",
+                                                .unit = "deg",
+                                                .min = -360.0,
+                                                .max = 360.0}),
 
         row<&S::focus, &Focus::focus>(
             {.group = "focus",
@@ -166,8 +177,13 @@ std::vector<Setting> makeTable() {
 
         row<&S::render, &Render::technique>({.group = "render",
                                              .name = "technique",
-                                             .help = "way of drawing defocus; pinhole draws none, all is sharp",
-                                             .choices = {"pinhole", "mipmap"}}),
+                                             .help = "way of drawing defocus; pinhole draws none, all is sharp; reference is slow and exact",
+                                             .choices = {"pinhole", "mipmap", "reference"}}),
+        row<&S::render, &Render::samples>({.group = "render",
+                                           .name = "samples",
+                                           .help = "points of the lens that the reference averages",
+                                           .min = 1.0,
+                                           .max = 65536.0}),
         row<&S::render, &Render::msaa>({.group = "render",
                                         .name = "msaa",
                                         .help = "samples per pixel against jagged edges",
@@ -201,7 +217,7 @@ std::vector<Setting> makeTable() {
 std::string Setting::rangeText() const {
     if (kind == SettingKind::boolean) return "true|false";
     std::string text;
-    if (kind == SettingKind::number) {
+    if (kind == SettingKind::number || (kind == SettingKind::integer && choices.empty())) {
         text = minExclusive ? "more than " + printNumber(min) + ", at most " + printNumber(max)
                             : printNumber(min) + ".." + printNumber(max);
     } else if (!form.empty()) {

@@ -17,6 +17,8 @@ struct LensSettings {
     std::optional<double> apertureMm;  // DIAMETER of lens or pupil; none: the lens's own
     std::optional<double> ageYears;    // of the eye; none: the lens's own
     double luminance = 10.0;           // what the eye adapts to, cd/m^2
+    int blades = 0;                    // of the aperture; 0: round
+    double bladeRotationDeg = 0.0;
 };
 
 enum class FocusMode { metres, infinity, gaze };
@@ -61,7 +63,7 @@ struct ViewSettings {
     std::optional<double> screenDistanceMm;
 };
 
-enum class TechniqueChoice { pinhole, mipmap };
+enum class TechniqueChoice { pinhole, mipmap, reference };
 enum class ToneMapChoice { none, neutral };
 enum class ShowChoice { none, vergence, coc, dob, don, level, pyramid };
 
@@ -74,7 +76,8 @@ struct ShowStage {
 
 struct RenderSettings {
     TechniqueChoice technique = TechniqueChoice::mipmap;
-    int msaa = 4;  // samples per pixel: 0 or 4
+    int msaa = 4;       // samples per pixel: 0 or 4
+    int samples = 512;  // lens samples of the reference
     ShowStage show;
     double exposureEv = 0.0;
     ToneMapChoice tonemap = ToneMapChoice::none;
@@ -103,7 +106,7 @@ struct Setting {
     SettingKind kind = SettingKind::text;
     std::string_view help;                       // one line
     std::string_view unit = "";                  // "mm"; empty: none
-    double min = 0.0, max = 0.0;                 // number
+    double min = 0.0, max = 0.0;                 // number; integer without choices
     bool minExclusive = false;                   // number: min itself is not allowed
     bool optional = false;                       // may be empty (null in a file)
     std::vector<std::string_view> choices = {};  // choice; integer: the values allowed

@@ -38,8 +38,17 @@ std::string_view dynamicsName(DynamicsChoice choice) {
     return "natural";
 }
 
-std::string_view techniqueName(TechniqueChoice choice) {
-    return choice == TechniqueChoice::pinhole ? "pinhole" : "mipmap";
+/// "mipmap, msaa 4": the technique with the dials that it has.
+std::string planText(const RenderSettings& settings) {
+    switch (settings.technique) {
+        case TechniqueChoice::pinhole:
+            return fmt::format("pinhole, msaa {}", settings.msaa);
+        case TechniqueChoice::mipmap:
+            return fmt::format("mipmap, msaa {}", settings.msaa);
+        case TechniqueChoice::reference:
+            return fmt::format("reference, {} samples", settings.samples);
+    }
+    return "";
 }
 
 LensConditions conditionsOf(const LensSettings& settings) {
@@ -80,7 +89,7 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     const bool both = settings.view.eye == EyeChoice::both && settings.view.display != DisplayChoice::mono;
     for (int i = 0; i < (both ? 2 : 1); ++i)
         eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
-    report_.plan = fmt::format("{}, msaa {}", techniqueName(settings.render.technique), settings.render.msaa);
+    report_.plan = planText(settings.render);
 }
 
 GazeSample FrameMaker::gazeNow(const Input& input) const {
@@ -155,12 +164,15 @@ const FrameReport& FrameMaker::make(const Input& input) {
 
     // Lens or eye: what it can reach
     report_.lens = resolveLens(preset_, conditions_, wanted);
+    report_.lens.lens.blades = settings_.lens.blades >= 3 ? settings_.lens.blades : 0;
+    report_.lens.lens.bladeRotation = Radians(glm::radians(settings_.lens.bladeRotationDeg));
 
     // Technique, once per eye, same plan for both
     const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
     for (EyePicture& eye : eyes_)
         eye.picture = &eye.technique->draw({scene_, eye.view, report_.lens.lens, exposure, settings_.render.msaa,
-                                            settings_.render.show, report_.passes});
+                                            settings_.render.show, report_.passes, settings_.render.samples, 0,
+                                            input.budgetMilliseconds / static_cast<double>(eyes_.size())});
     composed_ = &compositor_.compose(composition(), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;

@@ -49,6 +49,8 @@ class FrameMaker {
         std::optional<Pose> head;        // in the start view's frame; overrides the trace
         // Depth under the gaze is read when the GL has it, usually a frame late, instead of waiting for it.
         bool mayLag = false;
+        // More than 0: a technique that can refine a still view does so within this time, from frame to frame.
+        double budgetMilliseconds = 0.0;
     };
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.

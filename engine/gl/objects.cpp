@@ -103,7 +103,7 @@ Framebuffer::Framebuffer(std::span<const Attachment> colors, const Texture* dept
     std::vector<GLenum> buffers;
     for (const Attachment& color : colors) {
         const auto slot = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + buffers.size());
-        if (color.texture->spec().layers > 0)
+        if (color.texture->spec().layers > 0 && color.layer != kAllLayers)
             glNamedFramebufferTextureLayer(name, slot, color.texture->name(), color.level, color.layer);
         else
             glNamedFramebufferTexture(name, slot, color.texture->name(), color.level);

@@ -103,8 +103,10 @@ class Framebuffer : public Handle<FramebufferTraits> {
   public:
     struct Attachment {
         const Texture* texture = nullptr;
-        int level = 0, layer = 0;
+        int level = 0;
+        int layer = 0;  // of an array; kAllLayers: a layered target
     };
+    static constexpr int kAllLayers = -1;
     Framebuffer() = default;
     Framebuffer(std::span<const Attachment> colors, const Texture* depth, std::string_view label);
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,8 +35,8 @@ class Program : public Handle<ProgramTraits> {
     void set(const char* uniform, const glm::vec4& v) const {
         glProgramUniform4f(name(), location(uniform), v.x, v.y, v.z, v.w);
     }
-    void set(const char* uniform, const glm::mat4& m) const {
-        glProgramUniformMatrix4fv(name(), location(uniform), 1, GL_FALSE, &m[0][0]);
+    void set(const char* uniform, std::span<const glm::mat4> m) const {
+        glProgramUniformMatrix4fv(name(), location(uniform), static_cast<GLsizei>(m.size()), GL_FALSE, &m[0][0][0]);
     }
 
   private:

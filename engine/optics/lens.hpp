@@ -22,6 +22,10 @@ struct Lens {
     Metres apertureRadius{0.0};   // E >= 0; a RADIUS; 0 is a pinhole
     Metres focalLength{0.01667};  // F > 0
     Dioptres focus{0.0};          // Df < 1/F; 0 focuses at infinity; < 0 only as a hyperope's unreached infinity
+    int blades = 0;               // 0: round; >= 3: a regular polygon inscribed in the round aperture
+    Radians bladeRotation{0.0};   // where its first corner is, counter-clockwise from the right
+
+    bool operator==(const Lens&) const = default;
 };
 
 /// A far-sighted eye that cannot reach infinity is focused beyond it: the least vergence a lens may have.

@@ -13,11 +13,15 @@ namespace dioptre {
 struct Pose {
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z
+
+    bool operator==(const Pose&) const = default;
 };
 
 /// The four edges as tangents, i.e. x or y at unit distance; left < right, bottom < top, off-axis allowed.
 struct Frustum {
     double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
+
+    bool operator==(const Frustum&) const = default;
 };
 
 /// aspect = width / height. Throws InputError unless 0 < yfov < pi and aspect > 0.
@@ -28,6 +32,8 @@ struct View {
     Frustum frustum;
     Metres near{0.01};          // > 0; there is no far plane
     int width = 0, height = 0;  // pixels, >= 1
+
+    bool operator==(const View&) const = default;
 };
 
 /// Throws InputError naming the first value out of the ranges above.

@@ -31,25 +31,36 @@ Box transformed(const glm::dmat4& m, const Bounds& b) {
             glm::abs(r[0]) * half.x + glm::abs(r[1]) * half.y + glm::abs(r[2]) * half.z};
 }
 
-/// False only if no point of the box can be inside the frustum (tangents at unit distance, looking along -z).
-bool mayBeSeen(const View& view, const Box& box) {
+/// False only if no point of the box can be inside the frustum (tangents at unit distance, looking along -z), seen from
+/// any point of the lens: that moves it sideways by up to E |Df d - 1|.
+bool mayBeSeen(const View& view, const Lens* lens, const Box& box) {
     const Frustum& f = view.frustum;
+    double blur = 0.0;
+    if (lens)
+        for (const double d : {-box.centre.z - box.half.z, -box.centre.z + box.half.z})
+            blur = std::max(blur, lens->apertureRadius.value * std::abs(lens->focus.value * d - 1.0));
+    const glm::dvec3 half = box.half + glm::dvec3(blur, blur, 0.0);
     const glm::dvec3 inward[] = {{1.0, 0.0, f.left}, {-1.0, 0.0, -f.right}, {0.0, 1.0, f.bottom}, {0.0, -1.0, -f.top}};
     for (const glm::dvec3& n : inward)
-        if (glm::dot(n, box.centre) + glm::dot(glm::abs(n), box.half) < 0.0) return false;
+        if (glm::dot(n, box.centre) + glm::dot(glm::abs(n), half) < 0.0) return false;
     return -box.centre.z + box.half.z >= view.near.value;
+}
+
+Program program(std::string_view fragment, std::vector<std::string> defines) {
+    if (GpuScene::mostMatrices() > 1) defines.push_back("LAYERED");
+    return {"scene/scene.vert.glsl", fragment, defines};
 }
 
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene)
     : vertexArray_(makeVertexArray("scene")),
-      unlit_("scene/scene.vert.glsl", "scene/surface.frag.glsl"),
-      unlitMask_("scene/scene.vert.glsl", "scene/surface.frag.glsl", {"MASK"}),
-      lit_("scene/scene.vert.glsl", "scene/surface.frag.glsl", {"LIT"}),
-      litMask_("scene/scene.vert.glsl", "scene/surface.frag.glsl", {"LIT", "MASK"}),
-      depth_("scene/scene.vert.glsl", "scene/depth.frag.glsl"),
-      depthMask_("scene/scene.vert.glsl", "scene/depth.frag.glsl", {"MASK"}) {
+      unlit_(program("scene/surface.frag.glsl", {})),
+      unlitMask_(program("scene/surface.frag.glsl", {"MASK"})),
+      lit_(program("scene/surface.frag.glsl", {"LIT"})),
+      litMask_(program("scene/surface.frag.glsl", {"LIT", "MASK"})),
+      depth_(program("scene/depth.frag.glsl", {})),
+      depthMask_(program("scene/depth.frag.glsl", {"MASK"})) {
     textures_ = uploadTextures(scene);
     for (const auto& [key, texture] : textures_) bytes_ += texture.bytes();
     uploadMaterials(scene);
@@ -118,7 +129,7 @@ VergenceRange GpuScene::vergenceRange(const View& view) const {
     VergenceRange range;
     for (const Item& item : items_) {
         const Box box = transformed(viewFrom * item.worldFromMesh, item.bounds);
-        if (!mayBeSeen(view, box)) continue;
+        if (!mayBeSeen(view, nullptr, box)) continue;
         const double near = std::max(view.near.value, -box.centre.z - box.half.z);
         const double far = std::max(near, -box.centre.z + box.half.z);
         range.nearest = range.anything ? std::max(range.nearest, 1.0 / near) : 1.0 / near;
@@ -128,22 +139,46 @@ VergenceRange GpuScene::vergenceRange(const View& view) const {
     return range;
 }
 
-void GpuScene::draw(const View& view, float exposure, bool depthOnly) const {
+int GpuScene::mostMatrices() {
+    return GLAD_GL_ARB_shader_viewport_layer_array ? gpu::kMostMatrices : 1;
+}
+
+void GpuScene::drawRadiance(const View& view, float exposure) const {
+    prepare(view, nullptr, 1);
+    const glm::mat4 clip(clipFromView(view));
+    draw({&clip, 1}, exposure, 0.0f, false);
+}
+
+void GpuScene::drawDepth(const View& view) const {
+    prepare(view, nullptr, 1);
+    const glm::mat4 clip(clipFromView(view));
+    draw({&clip, 1}, 1.0f, 0.0f, true);
+}
+
+void GpuScene::prepareThroughLens(const View& view, const Lens& lens, int matrices) const {
+    prepare(view, &lens, matrices);
+}
+
+void GpuScene::drawThroughLens(std::span<const glm::mat4> clipFromView, float exposure, float lodBias) const {
+    draw(clipFromView, exposure, lodBias, false);
+}
+
+void GpuScene::prepare(const View& view, const Lens* lens, int matrices) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
     // What this view sees, in order of state; the matrices are made eye-relative in double precision.
     std::vector<gpu::InstanceData> instances(items_.size());
     std::vector<DrawCommand> commands;
-    std::vector<std::pair<const Item*, std::size_t>> runs;  // first item of a run of equal state, its first command
+    runs_.clear();
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         const glm::dmat4 viewFromMesh = viewFrom * item.worldFromMesh;
-        if (!mayBeSeen(view, transformed(viewFromMesh, item.bounds))) continue;
+        if (!mayBeSeen(view, lens, transformed(viewFromMesh, item.bounds))) continue;
         instances[i] = {glm::mat4(viewFromMesh), glm::uvec4(item.material, 0, 0, 0)};
-        if (runs.empty() || runs.back().first->material != item.material ||
-            runs.back().first->mirrored != item.mirrored)
-            runs.emplace_back(&item, commands.size());
-        commands.push_back(
-            {item.indexCount, 1, item.firstIndex, static_cast<GLint>(item.baseVertex), static_cast<GLuint>(i)});
+        if (runs_.empty() || runs_.back().material != item.material || runs_.back().mirrored != item.mirrored)
+            runs_.push_back({item.material, item.mirrored, commands.size(), 0});
+        ++runs_.back().commandCount;
+        commands.push_back({item.indexCount, static_cast<GLuint>(matrices), item.firstIndex,
+                            static_cast<GLint>(item.baseVertex), static_cast<GLuint>(i)});
     }
     if (commands.empty()) return;
     instances_.update(instances.data(), instances.size() * sizeof(gpu::InstanceData));
@@ -151,7 +186,11 @@ void GpuScene::draw(const View& view, float exposure, bool depthOnly) const {
     std::vector<gpu::LightData> lights;
     for (const Light& light : lights_) lights.push_back(lightInView(light, viewFrom));
     lightBuffer_.update(lights.data(), lights.size() * sizeof(gpu::LightData));
+    up_ = glm::vec3(viewFrom[1]);
+}
 
+void GpuScene::draw(std::span<const glm::mat4> clipFromView, float exposure, float lodBias, bool depthOnly) const {
+    if (runs_.empty()) return;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, instances_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materialBuffer_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, lightBuffer_.name());
@@ -159,19 +198,17 @@ void GpuScene::draw(const View& view, float exposure, bool depthOnly) const {
     glBindVertexArray(vertexArray_.name());
     glEnable(GL_DEPTH_TEST);
 
-    const glm::mat4 clip(clipFromView(view));
-    const glm::vec4 up(glm::vec3(viewFrom[1]), skyRadiance_);
     const Program* current = nullptr;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-        const Item& item = *runs[r].first;
-        const BoundMaterial& material = materials_[item.material];
+    for (const Run& run : runs_) {
+        const BoundMaterial& material = materials_[run.material];
         const Program& program = programFor(material, depthOnly);
         if (&program != current) {
             program.use();
-            program.set("clipFromView", clip);
+            program.set("clipFromView", clipFromView);
             program.set("exposure", exposure);
-            program.set("up", up);
-            program.set("lightCount", static_cast<int>(lights.size()));
+            program.set("lodBias", lodBias);
+            program.set("up", glm::vec4(up_, skyRadiance_));
+            program.set("lightCount", static_cast<int>(lights_.size()));
             current = &program;
         }
         for (GLuint unit = 0; unit < 4; ++unit) {
@@ -182,11 +219,10 @@ void GpuScene::draw(const View& view, float exposure, bool depthOnly) const {
             glDisable(GL_CULL_FACE);
         else
             glEnable(GL_CULL_FACE);
-        glFrontFace(item.mirrored ? GL_CW : GL_CCW);
-        const std::size_t end = r + 1 < runs.size() ? runs[r + 1].second : commands.size();
+        glFrontFace(run.mirrored ? GL_CW : GL_CCW);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                                    reinterpret_cast<const void*>(runs[r].second * sizeof(DrawCommand)),
-                                    static_cast<GLsizei>(end - runs[r].second), 0);
+                                    reinterpret_cast<const void*>(run.firstCommand * sizeof(DrawCommand)),
+                                    static_cast<GLsizei>(run.commandCount), 0);
     }
     // Full-screen passes rely on these.
     for (GLuint unit = 0; unit < 4; ++unit) glBindSampler(unit, 0);

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "gl/program.hpp"
+#include "optics/lens.hpp"
 #include "optics/view.hpp"
 #include "render/scene_upload.hpp"
 #include "scene/scene.hpp"
@@ -21,13 +23,22 @@ struct VergenceRange {
 
 class GpuScene {
   public:
+    /// Matrices that one call can draw: 1 where the driver cannot choose a layer in the vertex stage.
+    static int mostMatrices();
+
     /// Uploads geometry, materials and textures (mipmapped). Needs a current context.
     explicit GpuScene(const Scene& scene);
 
     /// Draws what `view` sees to the bound framebuffer: radiance × exposure and depth, or depth alone. The depth
     /// buffer must have been cleared to 0 (reversed depth).
-    void drawRadiance(const View& view, float exposure) const { draw(view, exposure, false); }
-    void drawDepth(const View& view) const { draw(view, 1.0f, true); }
+    void drawRadiance(const View& view, float exposure) const;
+    void drawDepth(const View& view) const;
+
+    /// The same through points of a lens. Prepared once for all of them: what any point of `lens` can see, drawn by
+    /// each call as often as it has matrices, matrix i to layer i of the bound layered framebuffer.
+    void prepareThroughLens(const View& view, const Lens& lens, int matrices) const;
+    /// Exactly as many matrices as prepared. `lodBias` is added to the level at which textures are read.
+    void drawThroughLens(std::span<const glm::mat4> clipFromView, float exposure, float lodBias) const;
 
     /// Of what `view` sees: conservative, from bounding boxes, nearest bounded by the view's near plane.
     VergenceRange vergenceRange(const View& view) const;
@@ -54,7 +65,8 @@ class GpuScene {
 
     void uploadGeometry(const Scene& scene);
     void uploadMaterials(const Scene& scene);
-    void draw(const View& view, float exposure, bool depthOnly) const;
+    void prepare(const View& view, const Lens* lens, int matrices) const;
+    void draw(std::span<const glm::mat4> clipFromView, float exposure, float lodBias, bool depthOnly) const;
     const Program& programFor(const BoundMaterial& material, bool depthOnly) const;
 
     std::vector<Item> items_;  // sorted by state
@@ -66,7 +78,15 @@ class GpuScene {
     SceneTextures textures_;
     SceneSamplers samplers_;
     Buffer vertices_, indices_, drawIndices_, materialBuffer_;
-    mutable Buffer instances_, lightBuffer_, commands_;  // rewritten for each view
+    // What the last prepared view sees.
+    struct Run {
+        std::uint32_t material;
+        bool mirrored;
+        std::size_t firstCommand, commandCount;
+    };
+    mutable std::vector<Run> runs_;  // commands of equal state
+    mutable glm::vec3 up_{0.0f};     // the world's up in view space
+    mutable Buffer instances_, lightBuffer_, commands_;
     VertexArray vertexArray_;
     Program unlit_, unlitMask_, lit_, litMask_, depth_, depthMask_;
 };

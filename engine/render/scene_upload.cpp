@@ -123,7 +123,8 @@ void describeVertices(const VertexArray& array, const Buffer& vertices, const Bu
     const GLuint vao = array.name();
     glVertexArrayVertexBuffer(vao, 0, vertices.name(), 0, sizeof(Vertex));
     glVertexArrayVertexBuffer(vao, 1, drawIndices.name(), 0, sizeof(std::uint32_t));
-    glVertexArrayBindingDivisor(vao, 1, 1);
+    // Read at a draw's base instance, whatever the instance: matrices are drawn as instances.
+    glVertexArrayBindingDivisor(vao, 1, gpu::kMostMatrices);
     glVertexArrayElementBuffer(vao, indices.name());
     struct Attribute {
         GLint components;

@@ -2,6 +2,7 @@
 
 #include "render/mipmap/mipmap.hpp"
 #include "render/pinhole/pinhole.hpp"
+#include "render/reference/reference.hpp"
 
 namespace dioptre {
 
@@ -11,6 +12,8 @@ std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice) {
             return std::make_unique<Pinhole>();
         case TechniqueChoice::mipmap:
             return std::make_unique<Mipmap>();
+        case TechniqueChoice::reference:
+            return std::make_unique<Reference>();
     }
     return nullptr;
 }

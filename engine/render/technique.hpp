@@ -23,6 +23,10 @@ struct EyeFrame {
     int msaa = 0;
     ShowStage show;  // a stage of the technique instead of the picture
     PassLog& log;
+    int samples = 512;    // reference: points of the lens, >= 1
+    int firstSample = 0;  // reference: where in the sequence they begin
+    // reference: 0 draws all samples now; more: as many as fit, continuing while nothing else here changes.
+    double budgetMilliseconds = 0.0;
 };
 
 class Technique {
@@ -35,6 +39,9 @@ class Technique {
     /// Linear radiance × exposure, RGBA16F, view.width × view.height; valid until the next call. Leaves depth test and
     /// blending off. Throws InputError for a stage it does not have, RunError where the GL fails.
     virtual const Texture& draw(const EyeFrame& frame) = 0;
+
+    /// How much of what was asked for the last picture has, 0..1; below 1 while it still refines.
+    virtual double progress() const { return 1.0; }
 
     /// Textures held, the geometry pass's included.
     virtual std::size_t bytes() const = 0;

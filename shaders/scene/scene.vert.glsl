@@ -1,4 +1,7 @@
 // All geometry goes through here: clip position, and what the fragment stage needs in view space.
+#ifdef LAYERED
+#extension GL_ARB_shader_viewport_layer_array : require
+#endif
 #include "shared/scene_types.h"
 
 layout(location = 0) in vec3 position;
@@ -9,7 +12,7 @@ layout(location = 4) in uint drawIndex;  // one per draw, by the base instance
 
 layout(std430, binding = 0) readonly buffer Instances { InstanceData instances[]; };
 
-uniform mat4 clipFromView;
+uniform mat4 clipFromView[kMostMatrices];
 
 out Surface {
     vec3 viewPosition;
@@ -31,5 +34,8 @@ void main() {
     surface.normal = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * normal * sign(determinant(m));
     surface.tangent = vec4(m * tangent.xyz, tangent.w * sign(determinant(m)));
 #endif
-    gl_Position = clipFromView * viewPosition;
+    gl_Position = clipFromView[gl_InstanceID] * viewPosition;
+#ifdef LAYERED
+    gl_Layer = gl_InstanceID;
+#endif
 }

@@ -8,6 +8,9 @@ using glm::uvec4;
 using glm::vec4;
 #endif
 
+// Lens samples that one submission of the geometry can draw, each to a layer.
+const int kMostMatrices = 4;
+
 struct InstanceData {
     mat4 viewFromMesh;  // eye-relative, so that a scene far from the origin keeps its digits
     uvec4 material;     // x: index into the materials

@@ -24,10 +24,12 @@ glm::dvec2 pixelOf(const View& view, const glm::dvec3& world) {
 }
 
 bool sameBits(const View& a, const View& b) {
+    // NOLINTBEGIN(bugprone-suspicious-memory-comparison): bits are what is asked for
     return std::memcmp(&a.pose.position, &b.pose.position, sizeof a.pose.position) == 0 &&
            std::memcmp(&a.pose.orientation, &b.pose.orientation, sizeof a.pose.orientation) == 0 &&
            std::memcmp(&a.frustum, &b.frustum, sizeof a.frustum) == 0 && a.near == b.near && a.width == b.width &&
            a.height == b.height;
+    // NOLINTEND(bugprone-suspicious-memory-comparison)
 }
 
 TEST(StereoRigTest, IpdZeroIsIdenticalToTheBit) {
