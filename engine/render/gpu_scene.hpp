@@ -84,6 +84,7 @@ class GpuScene {
         bool mirrored;
         std::size_t firstCommand, commandCount;
     };
+    mutable float lodBias_ = 0.0f;   // that the samplers have
     mutable std::vector<Run> runs_;  // commands of equal state
     mutable glm::vec3 up_{0.0f};     // the world's up in view space
     mutable Buffer instances_, lightBuffer_, commands_;

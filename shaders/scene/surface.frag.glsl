@@ -20,7 +20,6 @@ layout(binding = 3) uniform sampler2D emissiveTexture;
 
 uniform int lightCount;
 uniform vec4 up;           // xyz: the world's up in view space; w: the sky's radiance at the zenith
-uniform float lodBias;     // added to the textures' level: many lens samples filter by themselves
 uniform float exposure;    // radiance is scaled by it here, so that half floats keep their digits
 
 layout(location = 0) out vec4 radiance;
@@ -33,7 +32,7 @@ vec3 shadingNormal(MaterialData m) {
         if (dot(t, t) > 1e-20) {
             t = normalize(t);
             vec3 b = cross(n, t) * surface.tangent.w;
-            vec3 local = texture(normalTexture, surface.uv, lodBias).xyz * 2.0 - 1.0;
+            vec3 local = texture(normalTexture, surface.uv).xyz * 2.0 - 1.0;
             local.xy *= m.emissive.w;
             n = normalize(mat3(t, b, n) * local);
         }
@@ -42,7 +41,7 @@ vec3 shadingNormal(MaterialData m) {
 }
 
 vec3 lit(MaterialData m, vec3 baseColor) {
-    vec4 mr = texture(metallicRoughnessTexture, surface.uv, lodBias);
+    vec4 mr = texture(metallicRoughnessTexture, surface.uv);
     float metallic = m.surface.x * mr.b;
     float roughness = m.surface.y * mr.g;
     vec3 n = shadingNormal(m);
@@ -60,12 +59,12 @@ vec3 lit(MaterialData m, vec3 baseColor) {
 
 void main() {
     MaterialData m = materials[material];
-    vec4 baseColor = m.baseColor * texture(baseColorTexture, surface.uv, lodBias);
+    vec4 baseColor = m.baseColor * texture(baseColorTexture, surface.uv);
 #ifdef MASK
     if (baseColor.a < m.surface.z) discard;
 #endif
 #ifdef LIT
-    vec3 color = lit(m, baseColor.rgb) + m.emissive.rgb * texture(emissiveTexture, surface.uv, lodBias).rgb;
+    vec3 color = lit(m, baseColor.rgb) + m.emissive.rgb * texture(emissiveTexture, surface.uv).rgb;
 #else
     vec3 color = baseColor.rgb;
 #endif
