@@ -7,6 +7,7 @@
 
 #include "core/color.hpp"
 #include "core/image.hpp"
+#include "optics/lens_samples.hpp"
 #include "render/technique.hpp"
 #include "test_scenes.hpp"
 
@@ -35,30 +36,13 @@ inline Image draw(TechniqueChoice choice, const GpuScene& scene, const Shot& sho
     return draw(*makeTechnique(choice), scene, shot);
 }
 
-inline double halton(int index, int base) {
-    double value = 0.0, digit = 1.0;
-    for (; index > 0; index /= base) value += (digit /= base) * (index % base);
-    return value;
-}
-
-/// Shirley, Chiu 1997: unit square to unit disc.
-inline glm::dvec2 concentric(glm::dvec2 square) {
-    const glm::dvec2 s = square * 2.0 - 1.0;
-    if (s.x == 0.0 && s.y == 0.0) return s;
-    const bool wide = std::abs(s.x) > std::abs(s.y);
-    const double r = wide ? s.x : s.y;
-    const double a =
-        wide ? std::numbers::pi / 4.0 * (s.y / s.x) : std::numbers::pi / 2.0 - std::numbers::pi / 4.0 * (s.x / s.y);
-    return {r * std::cos(a), r * std::sin(a)};
-}
-
 /// The view through one point of the lens: moved by E v, the plane in focus kept where it is in the picture
 /// (Haeberli, Akeley 1990; optics.md section 2), and the picture moved by part of a pixel.
 inline View throughLens(const View& view, const Lens& lens, glm::dvec2 v, glm::dvec2 pixelShift) {
     View moved = view;
     const glm::dvec2 offset = v * lens.apertureRadius.value;
     moved.pose.position += view.pose.orientation * glm::dvec3(offset, 0.0);
-    const glm::dvec2 tangents = pixelShift / focalLengthPixels(view) - offset * lens.focus.value;
+    const glm::dvec2 tangents = -pixelShift / focalLengthPixels(view) - offset * lens.focus.value;
     moved.frustum.left += tangents.x;
     moved.frustum.right += tangents.x;
     moved.frustum.bottom += tangents.y;
@@ -66,15 +50,16 @@ inline View throughLens(const View& view, const Lens& lens, glm::dvec2 v, glm::d
     return moved;
 }
 
-/// Plain accumulation over lens samples: Halton (2,7), concentric map, sub-pixel jitter, summed in double.
+/// Plain accumulation over the lens's samples with a camera that moves, summed in double: what the reference technique
+/// does with matrices, done another way.
 inline Image accumulated(const GpuScene& scene, const Shot& shot, int samples = 64) {
     const auto pinhole = makeTechnique(TechniqueChoice::pinhole);
     Image image(shot.view.width, shot.view.height);
     std::vector<double> sum(image.pixels.size());
-    for (int i = 1; i <= samples; ++i) {
+    for (int i = 0; i < samples; ++i) {
         Shot one = shot;
-        one.view = throughLens(shot.view, shot.lens, concentric({halton(i, 2), halton(i, 7)}),
-                               {halton(i, 3) - 0.5, halton(i, 5) - 0.5});
+        const LensSample sample = lensSample(i, shot.lens);
+        one.view = throughLens(shot.view, shot.lens, sample.lens, sample.pixel);
         const Image picture = draw(*pinhole, scene, one);
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += static_cast<double>(picture.pixels[k]);
     }

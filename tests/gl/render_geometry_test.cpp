@@ -151,7 +151,8 @@ TEST_F(GeometryGLTest, MaskedTexelsAreNotThere) {
         Shot shot;
         shot.show.stage = ShowChoice::vergence;
         const Image depth = draw(TechniqueChoice::pinhole, scene, shot);
-        EXPECT_NEAR(static_cast<double>(depth.at(50, 50)), cutoff < 0.5f ? 0.5 : 1.0 / 3.0, 0.001) << "cut-off " << cutoff;
+        EXPECT_NEAR(static_cast<double>(depth.at(50, 50)), cutoff < 0.5f ? 0.5 : 1.0 / 3.0, 0.001)
+            << "cut-off " << cutoff;
     }
 }
 
