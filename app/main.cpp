@@ -1,6 +1,9 @@
 // dioptre: the program. Parses the command line, runs one command, turns errors into one line and an exit code.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <string>
 
 #include "commands.hpp"
 #include "core/error.hpp"
@@ -60,6 +63,9 @@ void run(const Command& command) {
 int main(int argc, char** argv) {
     try {
         dioptre::run(dioptre::parseCommandLine(argc, argv));
+        // A full disk shows only when what was printed is written out.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw dioptre::RunError(std::string("standard output: ") + std::strerror(errno));
         return 0;
     } catch (const dioptre::InputError& error) {
         dioptre::logError(error.what());

@@ -209,6 +209,8 @@ Command parseCommandLine(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         for (const CLI::App* command : {render, view, inspect, compare}) rejectExtras(*command);
         throw InputError(oneLine(error.what()));
+    } catch (const std::logic_error&) {  // CLI11 reads a flag's value with std::stoll
+        throw InputError("a flag's value must be true or false");
     }
     for (const CLI::App* command : {render, view, inspect, compare}) rejectExtras(*command);
     rejectExtras(app);

@@ -12,7 +12,7 @@ struct Command {
     enum class Which { nothingToDo, view, render, inspect, compare };
 
     Which which = Which::nothingToDo;  // --help or --version was printed, or --print-config asked for alone
-    std::string scene;                 // a file or a built-in scene's name; empty: the default one
+    std::string scene;                 // a file; empty: the default one
     std::filesystem::path out;         // render: picture, or folder of a sequence
     int frames = 1;                    // render: > 1 draws a sequence into the folder `out`
     double fps = 30.0;                 // of the sequence, frames per second

@@ -18,8 +18,14 @@ void runRender(const Command& command) {
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
     std::vector<FrameReport> shown;
+    const auto warnIfLimited = [](const ResolvedLens& lens) {
+        if (lens.focusLimited)
+            logWarning(fmt::format("the lens cannot focus there: {:.2f} D was asked for, {:.2f} D is in reach",
+                                   lens.lens.focus.value + lens.residual.value, lens.lens.focus.value));
+    };
     if (command.frames == 1) {
         shown.push_back(maker.make({}));
+        warnIfLimited(shown.back().lens);
         writeImage(command.out, maker.composed());
     } else {
         shown = renderSequence(maker, {scene.name, command.frames, command.fps, command.out});

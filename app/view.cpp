@@ -51,7 +51,11 @@ void runView(const Command& command) {
         input.mayLag = true;
         input.budgetMilliseconds = kRefineMilliseconds;
         // A trace plays; without one, the pointer is the gaze.
-        if (settings.focus.gazeTrace.empty()) input.gaze = pointerGaze(window.handle(), display);
+        if (settings.focus.gazeTrace.empty()) {
+            const auto pointer = pointerGaze(window.handle(), display);
+            // Outside the window is as a lost tracker: focus holds.
+            input.gaze = GazeSample{input.time, pointer.value_or(glm::dvec2(0.5)), pointer.has_value()};
+        }
         const FrameReport& frame = maker.make(input);
         int width = 0, height = 0;
         glfwGetFramebufferSize(window.handle(), &width, &height);

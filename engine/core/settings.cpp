@@ -175,10 +175,11 @@ std::vector<Setting> makeTable() {
                                                 .max = 1e6,
                                                 .minExclusive = true}),
 
-        row<&S::render, &Render::technique>({.group = "render",
-                                             .name = "technique",
-                                             .help = "way of drawing defocus; pinhole draws none, all is sharp; reference is slow and exact",
-                                             .choices = {"pinhole", "mipmap", "reference"}}),
+        row<&S::render, &Render::technique>(
+            {.group = "render",
+             .name = "technique",
+             .help = "way of drawing defocus; pinhole draws none, all is sharp; reference is slow and exact",
+             .choices = {"pinhole", "mipmap", "reference"}}),
         row<&S::render, &Render::samples>({.group = "render",
                                            .name = "samples",
                                            .help = "points of the lens that the reference averages",

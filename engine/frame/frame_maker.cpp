@@ -17,8 +17,9 @@ namespace {
 /// A preset's name in config/lenses, else a file.
 std::filesystem::path lensFile(const std::string& nameOrFile) {
     const auto presets = resource("config/lenses");
-    if (auto file = presets / (nameOrFile + ".json"); std::filesystem::exists(file)) return file;
-    if (std::filesystem::exists(nameOrFile)) return nameOrFile;
+    std::error_code tooLong;
+    if (auto file = presets / (nameOrFile + ".json"); std::filesystem::exists(file, tooLong)) return file;
+    if (std::filesystem::exists(nameOrFile, tooLong)) return nameOrFile;
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(presets)) names.push_back(entry.path().stem());
     std::sort(names.begin(), names.end());
@@ -66,6 +67,15 @@ std::optional<ScreenGeometry> screenOf(const ViewSettings& settings) {
     return ScreenGeometry{Metres(*settings.screenWidthMm * 1e-3), Metres(*settings.screenDistanceMm * 1e-3)};
 }
 
+/// A distance that a user typed must be one that the lens can be set to.
+void checkFocus(const LensPreset& preset, double metres) {
+    try {
+        validateFocus(preset.focalLength, vergence(Metres(metres)));
+    } catch (const InputError& error) {
+        throw InputError(std::string("--focus: ") + error.what());
+    }
+}
+
 /// The gaze as visual angles from the axis, degrees, for its speed.
 glm::dvec2 gazeDegrees(const View& view, glm::dvec2 gaze) {
     const Frustum& f = view.frustum;
@@ -84,8 +94,7 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
       filter_(focusPreset(dynamicsName(settings.focus.dynamics))) {
     if (!settings.focus.gazeTrace.empty()) gazeTrace_ = readGazeTrace(settings.focus.gazeTrace);
     if (!settings.focus.headTrace.empty()) headTrace_ = readHeadTrace(settings.focus.headTrace);
-    if (settings.focus.focus.mode == FocusMode::metres)
-        validateFocus(preset_.focalLength, vergence(Metres(settings.focus.focus.metres)));
+    if (settings.focus.focus.mode == FocusMode::metres) checkFocus(preset_, settings.focus.focus.metres);
     const bool both = settings.view.eye == EyeChoice::both && settings.view.display != DisplayChoice::mono;
     for (int i = 0; i < (both ? 2 : 1); ++i)
         eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
@@ -93,7 +102,7 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
 }
 
 GazeSample FrameMaker::gazeNow(const Input& input) const {
-    if (input.gaze) return {input.time, *input.gaze, true};
+    if (input.gaze) return *input.gaze;
     if (!gazeTrace_.empty()) return gazeAt(gazeTrace_, input.time);
     return {input.time, {settings_.focus.gaze[0], settings_.focus.gaze[1]}, true};
 }
@@ -120,32 +129,41 @@ void FrameMaker::placeEyes(const View& head) {
     eyes_[0].view = eyeView(eye, head, ipd, screen);
 }
 
-std::optional<Dioptres> FrameMaker::gazeDepth(const View& centre, glm::dvec2 gaze, bool mayLag) {
+std::optional<FrameMaker::GazeDepth> FrameMaker::gazeDepth(const View& centre, bool mayLag) {
     std::vector<View> views;
     for (const EyePicture& eye : eyes_) views.push_back(eye.view);
     const Radians error(glm::radians(settings_.focus.gazeErrorDeg));
-    if (!mayLag) return probe_.vergence(scene_, views, centre, gaze, error, report_.passes);
-    // The last reading that is finished; the next one starts only then, so that none is dropped unread.
-    if (const auto reading = probe_.finish(false)) lagging_ = reading->vergence;
-    if (!probe_.running()) probe_.start(scene_, views, centre, gaze, error, report_.passes);
-    return lagging_;
+    // While the gaze is lost, the middle is watched: focus drifts there in the end.
+    const GazeSample& gaze = report_.gaze;
+    const glm::dvec2 place = gaze.valid ? gaze.position : glm::dvec2(0.5);
+    if (!mayLag) return GazeDepth{gaze, probe_.vergence(scene_, views, centre, place, error, report_.passes)};
+    // The last reading, once it is finished; the next one starts only then, so that none is dropped unread.
+    std::optional<GazeDepth> finished;
+    if (const auto reading = probe_.finish(false)) finished = GazeDepth{awaited_, reading->vergence};
+    if (!probe_.running()) {
+        probe_.start(scene_, views, centre, place, error, report_.passes);
+        awaited_ = gaze;
+    }
+    return finished;
 }
 
 Dioptres FrameMaker::focusNow(const View& head, const Input& input) {
     const FocusChoice& choice = settings_.focus.focus;
     if (choice.mode == FocusMode::infinity) return Dioptres(0.0);
     if (choice.mode == FocusMode::metres) return vergence(Metres(choice.metres));
-    constexpr glm::dvec2 kMiddle(0.5, 0.5);
-    const GazeSample& gaze = report_.gaze;
     const View centre = eyeView(Eye::centre, head, Metres(settings_.view.ipdMm * 1e-3), screenOf(settings_.view));
     // A first frame, or a jump back, has no past to move from.
     const bool settle = !lastTime_ || input.time < *lastTime_;
-    // While the gaze is lost, the middle is watched: focus drifts there in the end.
-    const auto depth = gazeDepth(centre, gaze.valid ? gaze.position : kMiddle, input.mayLag && !settle);
-    report_.underGaze = gaze.valid ? depth : std::nullopt;
-    if (settle) filter_.jump(input.time, depth.value_or(Dioptres(0.0)));
-    const Dioptres middle = gaze.valid ? Dioptres(std::nan("")) : depth.value_or(Dioptres(0.0));
-    filter_.sample({input.time, report_.underGaze, gazeDegrees(centre, gaze.position), gaze.valid, middle});
+    const auto read = gazeDepth(centre, input.mayLag && !settle);
+    if (settle) filter_.jump(input.time, read->vergence.value_or(Dioptres(0.0)));
+    if (read) {
+        const bool valid = read->gaze.valid;
+        report_.underGaze = valid ? read->vergence : std::nullopt;
+        const Dioptres middle = valid ? Dioptres(std::nan("")) : read->vergence.value_or(Dioptres(0.0));
+        filter_.sample({input.time, report_.underGaze, gazeDegrees(centre, read->gaze.position), valid, middle});
+    } else {
+        filter_.advance(input.time);
+    }
     return filter_.focus();
 }
 

@@ -45,7 +45,7 @@ class FrameMaker {
     /// What the viewer does between frames, where no trace says it.
     struct Input {
         double time = 0.0;
-        std::optional<glm::dvec2> gaze;  // 0..1 from the top left; overrides trace and setting
+        std::optional<GazeSample> gaze;  // overrides trace and setting
         std::optional<Pose> head;        // in the start view's frame; overrides the trace
         // Depth under the gaze is read when the GL has it, usually a frame late, instead of waiting for it.
         bool mayLag = false;
@@ -76,7 +76,12 @@ class FrameMaker {
     View headView(const Input& input) const;
     void placeEyes(const View& head);
     Dioptres focusNow(const View& head, const Input& input);
-    std::optional<Dioptres> gazeDepth(const View& centre, glm::dvec2 gaze, bool mayLag);
+    /// What was read, and the gaze that it belongs to.
+    struct GazeDepth {
+        GazeSample gaze;
+        std::optional<Dioptres> vergence;
+    };
+    std::optional<GazeDepth> gazeDepth(const View& centre, bool mayLag);
     Composition composition() const;
 
     Settings settings_;
@@ -88,7 +93,7 @@ class FrameMaker {
     std::vector<HeadSample> headTrace_;
     GazeProbe probe_;
     FocusFilter filter_;
-    std::optional<Dioptres> lagging_;  // the last depth read without waiting
+    GazeSample awaited_;  // the gaze whose depth is being read
     std::optional<double> lastTime_;
     std::vector<EyePicture> eyes_;  // one, or left and right
     Compositor compositor_;

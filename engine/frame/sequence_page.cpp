@@ -66,9 +66,10 @@ std::string curve(std::span<const FrameReport> frames, double (*value)(const Fra
                               top + kHeight * (1.0 - value(frames[i]) / most));
     return fmt::format(
         "<line x1='60' x2='1060' y1='{0}' y2='{0}' stroke='var(--line)'/>"
-        "<text x='0' y='{1}'>{2:.3g} {3}</text><text x='0' y='{0}'>0</text>"
+        "<text x='0' y='{1}'>{2} {3}</text><text x='0' y='{0}'>0</text>"
         "<polyline fill='none' stroke='var({4})' stroke-width='2' points='{5}'/>",
-        top + static_cast<int>(kHeight), top + 10, most, unit, color, points);
+        top + static_cast<int>(kHeight), top + 10,
+        most < 100.0 ? fmt::format("{:.3g}", most) : fmt::format("{:.0f}", most), unit, color, points);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ class Context {
 /// the build has it, else egl). Throws RunError naming the kind and the reason.
 std::unique_ptr<Context> createHeadlessContext(std::string_view kind);
 
-/// Loads GL's functions and sets the state that the whole program relies on: zero-to-one reversed depth, seamless cube
-/// maps off, debug messages (errors throw in debug builds). For contexts only; throws RunError below OpenGL 4.5.
+/// Loads GL's functions and sets the state that the whole program relies on: zero-to-one reversed depth, bytes
+/// packed tightly, GL errors said on stderr. For contexts only; throws RunError below OpenGL 4.5.
 void loadGl(GLADapiproc (*getProcAddress)(const char*));
 
 struct RendererInfo {

@@ -67,7 +67,7 @@ struct TextureSpec {
 class Texture : public Handle<TextureTraits> {
   public:
     Texture() = default;
-    /// Throws RunError when a size is beyond the driver's limit. Filters: nearest, clamped; see setFilter.
+    /// Throws RunError when a size is beyond the driver's limit. Filters: nearest, clamped; see setLinear.
     Texture(const TextureSpec& spec, std::string_view label);
 
     const TextureSpec& spec() const { return spec_; }

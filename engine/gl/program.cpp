@@ -61,16 +61,15 @@ GLuint compile(GLenum stage, std::string_view file, const std::vector<std::strin
 }  // namespace
 
 Program::Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines) {
-    const GLuint stages[] = {compile(GL_VERTEX_SHADER, vertex, defines),
-                             compile(GL_FRAGMENT_SHADER, fragment, defines)};
     const GLuint program = glCreateProgram();
     Handle::operator=(Handle(program));
-    for (const GLuint stage : stages) glAttachShader(program, stage);
-    glLinkProgram(program);
-    for (const GLuint stage : stages) {
-        glDetachShader(program, stage);
-        glDeleteShader(stage);
+    // A shader marked for deletion goes with its program, whatever fails.
+    for (const auto& [stage, file] : {std::pair(GL_VERTEX_SHADER, vertex), std::pair(GL_FRAGMENT_SHADER, fragment)}) {
+        const GLuint shader = compile(stage, file, defines);
+        glAttachShader(program, shader);
+        glDeleteShader(shader);
     }
+    glLinkProgram(program);
     GLint ok = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
     if (!ok) {

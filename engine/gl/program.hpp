@@ -21,7 +21,7 @@ class Program : public Handle<ProgramTraits> {
   public:
     Program() = default;
     /// `vertex` and `fragment` are paths below shaders/; `defines` are names set to 1. Throws RunError with the
-    /// compiler's first message, file and line.
+    /// compiler's log.
     Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines = {});
 
     void use() const { glUseProgram(name()); }

@@ -78,8 +78,9 @@ double psnrOf(const Planes& a, const Planes& b) {
 std::array<float, kWindow> gaussianWindow() {
     std::array<double, kWindow> weights{};
     double sum = 0.0;
+    constexpr std::size_t kMiddle = kWindow / 2;
     for (std::size_t i = 0; i < kWindow; ++i) {
-        const double x = static_cast<double>(i) - static_cast<double>(kWindow / 2);
+        const double x = static_cast<double>(i) - static_cast<double>(kMiddle);
         weights[i] = std::exp(-x * x / (2.0 * kSigma * kSigma));
         sum += weights[i];
     }

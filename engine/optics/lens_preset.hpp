@@ -1,19 +1,17 @@
 // Lens prescriptions: small JSON files (comments allowed) in config/lenses/, and the lens that one gives for an
 // observer, a luminance and a wish to focus somewhere.
 //
-//   key                     of          range                      meaning
-//   name, description       all         text                       name is required
-//   kind                    all         "eye" | "camera"           required
-//   focalLengthMm           all         1..2000                    required
-//   apertureDiameterMm      all         0..1000                    fixed aperture DIAMETER; an eye without it has a
-//   pupil fNumber                 camera      0.1..1000                  instead of it: diameter = focal length /
-//   f-number ageYears                eye         3..120                     default 28.58 (the pupil formula's
-//   reference age) accommodation           eye         "unlimited" | "hofstetter-minimum" | "hofstetter-mean" |
-//   "hofstetter-maximum"
-//                                                                  default unlimited
-//   refractionDioptres      eye         -20..20                    default 0 (emmetropic); < 0 short-sighted
-//   pupilFieldSquareDegrees eye         0.1..41253                 default 900 pi, a disc 60 deg across
-//   pupilEyes               eye         1 | 2                      default 2
+//   key                     of      range         meaning
+//   name, description       all     text          name is required
+//   kind                    all     eye | camera  required
+//   focalLengthMm           all     1..2000       required
+//   apertureDiameterMm      all     0..1000       fixed aperture DIAMETER; an eye without it has a pupil
+//   fNumber                 camera  0.1..1000     instead of it: diameter = focal length / f-number
+//   ageYears                eye     3..120        default 28.58, the pupil formula's reference age
+//   accommodation           eye     a name        "unlimited" (default), "hofstetter-minimum", "-mean" or "-maximum"
+//   refractionDioptres      eye     -20..20       default 0 (emmetropic); < 0 short-sighted
+//   pupilFieldSquareDegrees eye     0.1..41253    default 900 pi, a disc 60 deg across
+//   pupilEyes               eye     1 | 2         default 2
 #pragma once
 
 #include <filesystem>

@@ -27,7 +27,8 @@ const Texture& ShowPass::draw(const EyeFrame& frame, const Texture& depth) {
             mode = 2;
             break;
         default:
-            throw InputError("--show: this technique has only the stages vergence, coc, dob");
+            throw InputError(
+                "--show: don, level and pyramid are stages of --technique mipmap; others have vergence, coc, dob");
     }
     PassScope scope(frame.log, "show");
     if (!fromDepth_.program()) fromDepth_ = FullscreenPass("common/show_depth.frag.glsl");

@@ -36,7 +36,7 @@ class Technique {
     Technique(const Technique&) = delete;
     Technique& operator=(const Technique&) = delete;
 
-    /// Linear radiance × exposure, RGBA16F, view.width × view.height; valid until the next call. Leaves depth test and
+    /// Linear radiance × exposure, RGBA16F or RGBA32F, view.width × view.height; valid until the next call. Leaves depth test and
     /// blending off. Throws InputError for a stage it does not have, RunError where the GL fails.
     virtual const Texture& draw(const EyeFrame& frame) = 0;
 

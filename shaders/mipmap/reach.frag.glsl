@@ -1,6 +1,7 @@
 // Degree of foreground neighbours' blur (Lee, Kim, Choi 2009, eq. 10 and 11) as a radius: for each tile the largest, px,
 // of the foreground's circles of confusion that touch it. 7×7 texels are searched, at the level whose texels are no
-// smaller than a third of the largest radius in the picture.
+// smaller than a third of the largest radius in the picture and half a tile.
+#include "shared/mipmap.h"
 layout(binding = 0) uniform sampler2D spread;
 uniform int top;     // coarsest level of `spread`, one texel
 uniform vec2 tiles;  // size of the target
@@ -11,7 +12,7 @@ void main() {
     float largest = texelFetch(spread, ivec2(0), top).x;
     float result = 0.0;
     if (largest > 0.0) {
-        int level = clamp(int(ceil(log2(largest * 0.5 / 3.0))), 0, top);
+        int level = clamp(int(ceil(log2((largest * 0.5 + 0.5 * float(kReachTile)) / 3.0))), 0, top);
         vec2 size = vec2(textureSize(spread, level));
         vec2 texelPixels = vec2(textureSize(spread, 0)) * 2.0 / size;
         vec2 at = gl_FragCoord.xy / tiles * size;  // the tile's centre, in texels of `level`

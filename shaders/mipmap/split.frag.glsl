@@ -28,8 +28,9 @@ void main() {
         float share = frontShare(c);
         front += quarter * share;
         back += quarter * (1.0 - share);
-        spread.x = max(spread.x, share > 0.0 ? -c : 0.0);
-        spread.y += share * max(-c, 0.0) * 0.25;
+        float radius = clamp(-c, 0.0, kMostRadius);
+        spread.x = max(spread.x, share > 0.0 ? radius : 0.0);
+        spread.y += share * radius * 0.25;
 #endif
     }
 }

@@ -61,6 +61,12 @@ DIOPTRE_FUNCTION bool spreadsOver(float radius, float mine) {
     return radius > mine * kNearerRatio + kSharpRadius;
 }
 
+// Half-size texels per texel of the foreground's reach: 8×8 pixels.
+DIOPTRE_CONST int kReachTile = 4;
+
+// Radii are kept below this in half floats.
+DIOPTRE_CONST float kMostRadius = 60000.0f;
+
 // Variance along one axis of what the half-size layers do to the picture, px²: one tap at level 0, and at level l > 0
 // in units of 4^(l+1) (box of the first level, binomials of the others, bilinear reading), then the bilinear step back
 // to full size.

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <vector>
 
+#include "bench_common.hpp"
 #include "core/resources.hpp"
 #include "frame/frame_maker.hpp"
 #include "gl/context.hpp"
@@ -45,43 +46,6 @@ Scene wallScene(double metres) {
     scene.instances.push_back({"wall", 0, glm::mat4(1.0f)});
     return scene;
 }
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
-/// A full-screen pass with one bilinear fetch.
-class CopyPass {
-  public:
-    CopyPass(int width, int height)
-        : source_({GL_RGBA16F, width, height, 1, 0}, "copy source"),
-          target_({GL_RGBA16F, width, height, 1, 0}, "copy target"),
-          pass_("common/copy.frag.glsl") {
-        source_.setLinear(false);
-        const Framebuffer::Attachment color[] = {{&target_, 0}};
-        framebuffer_ = Framebuffer(color, nullptr, "copy");
-        pass_.program().set("size", glm::vec2(width, height));
-    }
-    /// Milliseconds of one copy, of several in a row.
-    double run() const {
-        constexpr int kRepeats = 4;
-        framebuffer_.bind();
-        source_.bind(0);
-        glFinish();
-        const double start = nowMilliseconds();
-        for (int i = 0; i < kRepeats; ++i) {
-            pass_.draw();
-            glFinish();
-        }
-        return (nowMilliseconds() - start) / kRepeats;
-    }
-
-  private:
-    Texture source_, target_;
-    FullscreenPass pass_;
-    Framebuffer framebuffer_;
-};
 
 struct Cost {
     double copies = 0.0, copyMilliseconds = 0.0, pinholeMilliseconds = 0.0, bytesPerPixel = 0.0;

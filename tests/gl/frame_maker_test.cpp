@@ -118,7 +118,7 @@ TEST_F(FrameMakerGLTest, TheFirstFrameIsSettledOnWhatTheGazeSees) {
         double time = 100.0;
         for (const Look& look : {Look{{0.2, 0.7}, 2.0}, Look{{0.85, 0.7}, 0.5}, Look{{0.5, 0.1}, 0.0}}) {
             time -= 10.0;  // each a jump back: a first frame again
-            const FrameReport& report = maker.make({time, look.gaze, std::nullopt});
+            const FrameReport& report = maker.make({time, GazeSample{time, look.gaze, true}, std::nullopt});
             EXPECT_EQ(report.time, time);
             EXPECT_EQ(report.gaze.position, look.gaze);
             ASSERT_TRUE(report.underGaze.has_value());
@@ -139,7 +139,8 @@ TEST_F(FrameMakerGLTest, WhatTheGazeSeesIsSharpAndTheRestIsNot) {
     Settings sharpSettings = s;
     sharpSettings.render.technique = TechniqueChoice::pinhole;
     FrameMaker maker(leftNearRightFar(), s), pinhole(leftNearRightFar(), sharpSettings);
-    const FrameMaker::Input input{0.0, glm::dvec2(0.85, 0.7), std::nullopt};  // at 2 m; the near one has 3.5 px
+    const FrameMaker::Input input{0.0, GazeSample{0.0, {0.85, 0.7}, true},
+                                  std::nullopt};  // at 2 m; the near one has 3.5 px
     maker.make(input);
     pinhole.make(input);
     const Image blurred = maker.composed(), sharp = pinhole.composed();

@@ -140,7 +140,8 @@ TEST_F(HygieneGLTest, EverythingIsGivenBack) {
         Settings s;
         s.view.size = {96, 72};
         FrameMaker maker(aScene(), s);
-        for (int i = 0; i < 3; ++i) maker.make({0.02 * i, glm::dvec2(0.3 + 0.2 * i, 0.5), std::nullopt});
+        for (int i = 0; i < 3; ++i)
+            maker.make({0.02 * i, GazeSample{0.02 * i, {0.3 + 0.2 * i, 0.5}, true}, std::nullopt});
         maker.composed();
         EXPECT_GT(maker.techniqueBytes(), std::size_t{2 * 96 * 72 * 12});
     }
@@ -152,7 +153,7 @@ TEST_F(HygieneGLTest, FrameMakersObjectsDoNotPileUp) {
     s.view.size = {96, 72};
     FrameMaker maker(aScene(), s);
     const auto frame = [&](int i) {
-        maker.make({0.02 * i, glm::dvec2(0.05 + 0.1 * (i % 10), 0.1 + 0.08 * (i % 7)), std::nullopt});
+        maker.make({0.02 * i, GazeSample{0.02 * i, {0.05 + 0.1 * (i % 10), 0.1 + 0.08 * (i % 7)}, true}, std::nullopt});
     };
     for (int i = 0; i < 10; ++i) frame(i);
     const auto before = alive();

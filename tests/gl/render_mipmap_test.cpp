@@ -180,5 +180,31 @@ TEST_F(MipmapGLTest, SpotsSpreadAsTheCircleOfConfusion) {
         }
 }
 
+// Wherever it stands among the tiles of the foreground's reach, a dot's light is the same and about its centre.
+TEST_F(MipmapGLTest, ForegroundDotsDoNotDependOnTheirPlace) {
+    const auto technique = makeTechnique(TechniqueChoice::mipmap);
+    for (const double radius : {3.0, 6.0, 11.5})
+        for (int offset = 0; offset < 8; ++offset) {
+            Shot shot;
+            shot.lens = lensFor(shot.view, radius, 1.0, 2.0);
+            SceneBuilder b;
+            b.wall(1.0, b.unlit(glm::vec3(0.0f)));
+            const double x = 88.0 + offset, y = 64.0 + (offset * 3) % 8;
+            b.quad(shot.view, {x, y, x + 2.0, y + 2.0}, 0.5, b.unlit(glm::vec3(10.0f)));
+            const Image picture = draw(*technique, GpuScene(b.scene()), shot);
+            double light = 0.0;
+            glm::dvec2 centre(0.0);
+            for (int py = 0; py < picture.height; ++py)
+                for (int px = 0; px < picture.width; ++px) {
+                    light += static_cast<double>(picture.at(px, py));
+                    centre += static_cast<double>(picture.at(px, py)) * glm::dvec2(px + 0.5, py + 0.5);
+                }
+            centre /= light;
+            EXPECT_NEAR(light, 40.0, 4.0) << "radius " << radius << ", offset " << offset;
+            EXPECT_NEAR(centre.x, x + 1.0, 0.3) << "radius " << radius << ", offset " << offset;
+            EXPECT_NEAR(centre.y, y + 1.0, 0.3) << "radius " << radius << ", offset " << offset;
+        }
+}
+
 }  // namespace
 }  // namespace dioptre

@@ -10,9 +10,6 @@ namespace dioptre {
 
 namespace {
 
-// Half-size texels per texel of the reach: 8×8 pixels, fine enough for the smallest blur that is worth a pass.
-constexpr int kTile = 4;
-
 void setLayers(const Program& program, const CocTransform& coc, float baseLargest) {
     program.set("coc", glm::vec2(coc.scale, coc.bias));
     program.set("baseLargest", baseLargest);
@@ -29,6 +26,7 @@ Mipmap::Blur Mipmap::requiredBlur(const EyeFrame& frame) {
     // a foreground belongs to the base layer.
     blur.base = std::clamp(blur.coc.bias, mipmap::kFrontComplete, mipmap::kMostBaseRadius);
     blur.front = blur.coc.radius(nearest) < -mipmap::kFrontBegins;
+    blur.any = std::max(std::abs(blur.coc.radius(nearest)), std::abs(blur.coc.bias)) > mipmap::kSharpRadius;
     return blur;
 }
 
@@ -59,7 +57,9 @@ void Mipmap::resize(int width, int height) {
     layers_.setLinear(true);
     spread_ = Texture({GL_RG16F, w, h, levelCount_}, "mipmap foreground radii");
     spread_.setLinear(true);
-    reach_ = Texture({GL_R16F, (w + kTile - 1) / kTile, (h + kTile - 1) / kTile}, "mipmap foreground reach");
+    reach_ = Texture(
+        {GL_R16F, (w + mipmap::kReachTile - 1) / mipmap::kReachTile, (h + mipmap::kReachTile - 1) / mipmap::kReachTile},
+        "mipmap foreground reach");
     behind_ = Texture({GL_RGBA16F, w, h}, "mipmap blur behind");
     behind_.setLinear(false);
     front_ = Texture({GL_RGBA16F, w, h}, "mipmap blur in front");
@@ -106,6 +106,7 @@ void Mipmap::buildPyramid(const Blur& blur, PassLog& log) {
         passes.down.draw();
     }
     readLevels(0, levels - 1);
+    builtLevels_ = levels;
 }
 
 void Mipmap::blurHalfSize(const Blur& blur, PassLog& log) {
@@ -126,7 +127,7 @@ void Mipmap::blurHalfSize(const Blur& blur, PassLog& log) {
     reach_.bind(3);
     const Program& program = passes.blur.program();
     setLayers(program, blur.coc, blur.base);
-    program.set("reachScale", glm::vec2(1.0f / kTile));
+    program.set("reachScale", glm::vec2(1.0f / mipmap::kReachTile));
     passes.blur.draw();
 }
 
@@ -146,6 +147,8 @@ const Texture& Mipmap::draw(const EyeFrame& frame) {
     geometry_.draw(frame.scene, frame.view, frame.exposure, frame.msaa, frame.log);
     resize(frame.view.width, frame.view.height);
     const Blur blur = requiredBlur(frame);
+    // Nothing out of focus anywhere: the pinhole picture is the picture.
+    if (!blur.any && frame.show.stage == ShowChoice::none) return geometry_.color();
     buildPyramid(blur, frame.log);
     blurHalfSize(blur, frame.log);
     if (frame.show.stage != ShowChoice::none) return show(frame, blur);
@@ -167,7 +170,7 @@ const Texture& Mipmap::show(const EyeFrame& frame, const Blur& blur) {
     setLayers(program, blur.coc, blur.base);
     program.set("mode", stage == ShowChoice::don ? 0 : stage == ShowChoice::level ? 1 : 2);
     program.set("front", blur.front ? 1 : 0);
-    program.set("level", std::min(frame.show.level, levelCount_ - 1));
+    program.set("level", std::min(frame.show.level, builtLevels_ - 1));
     program.set("size", glm::vec2(frame.view.width, frame.view.height));
     showPass_.draw();
     return show_.picture();

@@ -23,7 +23,8 @@
 //
 // Passes: geometry; split (2×2 pixels to a texel of the layers base, front, back and of the foreground's radii);
 // pyramid (a pass a level); reach (DoN per tile); blur (half size); composite (full size). Without a foreground in view
-// the layers front and back, the radii and reach are left out.
+// the layers front and back, the radii and reach are left out; with nothing beyond half a pixel of radius, all but the
+// geometry.
 #pragma once
 
 #include <vector>
@@ -46,6 +47,7 @@ class Mipmap final : public Technique {
         CocTransform coc;
         float base = 0.0f;  // largest |radius| outside the foreground, px
         bool front = false;
+        bool any = false;  // anything beyond the radius that counts as sharp
     };
     /// The passes in two kinds: with and without a foreground.
     struct Passes {
@@ -66,9 +68,10 @@ class Mipmap final : public Technique {
     GeometryPass geometry_;
     ShowPass show_;
     int levelCount_ = 0;
-    Texture layers_;  // RGBA16F array, half size, a pyramid: base, front, back, each rgb·weight, weight
-    Texture spread_;  // RG16F, half size, a pyramid: the foreground's largest radius, and its mean · coverage, px
-    Texture reach_;   // R16F, a texel per 8×8 pixels: the largest foreground radius that reaches it, px
+    int builtLevels_ = 0;  // of the last pyramid
+    Texture layers_;       // RGBA16F array, half size, a pyramid: base, front, back, each rgb·weight, weight
+    Texture spread_;       // RG16F, half size, a pyramid: the foreground's largest radius, and its mean · coverage, px
+    Texture reach_;        // R16F, a texel per 8×8 pixels: the largest foreground radius that reaches it, px
     Texture behind_, front_;  // RGBA16F, half size, premultiplied
     Texture output_;
     Framebuffer reachTarget_, outputTarget_;
