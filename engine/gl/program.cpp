@@ -64,7 +64,8 @@ Program::Program(std::string_view vertex, std::string_view fragment, const std::
     const GLuint program = glCreateProgram();
     Handle::operator=(Handle(program));
     // A shader marked for deletion goes with its program, whatever fails.
-    for (const auto& [stage, file] : {std::pair(GL_VERTEX_SHADER, vertex), std::pair(GL_FRAGMENT_SHADER, fragment)}) {
+    using Stage = std::pair<GLenum, std::string_view>;
+    for (const auto& [stage, file] : {Stage(GL_VERTEX_SHADER, vertex), Stage(GL_FRAGMENT_SHADER, fragment)}) {
         const GLuint shader = compile(stage, file, defines);
         glAttachShader(program, shader);
         glDeleteShader(shader);
