@@ -32,6 +32,7 @@ void Reference::addBatch(const EyeFrame& frame, int count) {
         prepared_ = count;
     }
     std::vector<glm::mat4> clips;
+    clips.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
         clips.emplace_back(
             clipFromView(frame.view, frame.lens, lensSample(frame.firstSample + drawn_ + i, frame.lens)));
