@@ -56,34 +56,64 @@ struct Source {
     bool normalized;
 };
 
-// Element i goes to place `places[i]`, or i when there are no places.
-template <typename In, typename Out>
-void copyTyped(const Source& from, std::span<const std::uint32_t> places, std::vector<Out>& out) {
+template <typename Out>
+struct Target {
+    Out* first;
+    std::size_t step;
+    std::span<const std::uint32_t> places = {};  // element i goes to the place places[i], or i without any
+};
+
+template <typename In, std::size_t kComponents, typename Out>
+void copyElements(const Source& from, const Target<Out>& to) {
     for (std::uint64_t i = 0; i < from.count; ++i) {
-        Out* to = out.data() + (places.empty() ? i : places[i]) * from.components;
-        for (std::uint64_t c = 0; c < from.components; ++c) {
+        Out* out = to.first + (to.places.empty() ? i : to.places[i]) * to.step;
+        const std::uint8_t* data = from.data + i * from.stride;
+        for (std::size_t c = 0; c < (kComponents ? kComponents : from.components); ++c) {
             In value;
-            std::memcpy(&value, from.data + i * from.stride + c * sizeof(In), sizeof(In));
-            to[c] = converted<In, Out>(value, from.normalized);
+            std::memcpy(&value, data + c * sizeof(In), sizeof(In));
+            out[c] = converted<In, Out>(value, from.normalized);
         }
     }
 }
 
+// The common counts as constants, so that the compiler unrolls them.
+template <typename In, typename Out>
+void copyTyped(const Source& from, const Target<Out>& to) {
+    switch (from.components) {
+        case 1:
+            if constexpr (std::is_same_v<In, Out>) {
+                if (from.stride == sizeof(In) && to.step == 1 && to.places.empty()) {
+                    std::memcpy(to.first, from.data, static_cast<std::size_t>(from.count) * sizeof(In));
+                    return;
+                }
+            }
+            return copyElements<In, 1>(from, to);
+        case 2:
+            return copyElements<In, 2>(from, to);
+        case 3:
+            return copyElements<In, 3>(from, to);
+        case 4:
+            return copyElements<In, 4>(from, to);
+        default:
+            return copyElements<In, 0>(from, to);
+    }
+}
+
 template <typename Out>
-void copy(ComponentType type, const Source& from, std::span<const std::uint32_t> places, std::vector<Out>& out) {
+void copy(ComponentType type, const Source& from, const Target<Out>& to) {
     switch (type) {
         case ComponentType::byte:
-            return copyTyped<std::int8_t>(from, places, out);
+            return copyTyped<std::int8_t>(from, to);
         case ComponentType::unsignedByte:
-            return copyTyped<std::uint8_t>(from, places, out);
+            return copyTyped<std::uint8_t>(from, to);
         case ComponentType::shortInt:
-            return copyTyped<std::int16_t>(from, places, out);
+            return copyTyped<std::int16_t>(from, to);
         case ComponentType::unsignedShort:
-            return copyTyped<std::uint16_t>(from, places, out);
+            return copyTyped<std::uint16_t>(from, to);
         case ComponentType::unsignedInt:
-            return copyTyped<std::uint32_t>(from, places, out);
+            return copyTyped<std::uint32_t>(from, to);
         case ComponentType::floating: {
-            if constexpr (std::is_floating_point_v<Out>) copyTyped<float>(from, places, out);
+            if constexpr (std::is_floating_point_v<Out>) copyTyped<float>(from, to);
             return;  // indices are never floats: checked by who uses them
         }
     }
@@ -260,7 +290,8 @@ std::vector<std::uint32_t> Accessors::sparseIndices(const Accessor& a, std::size
     const Sparse& s = *a.sparse;
     std::vector<std::uint32_t> places(static_cast<std::size_t>(s.count));
     const std::uint8_t* data = viewBytes(s.indexView).data() + s.indexOffset;
-    copy(s.indexComponent, {data, s.count, sizeOf(s.indexComponent), 1, false}, {}, places);
+    copy(s.indexComponent, {data, s.count, sizeOf(s.indexComponent), 1, false},
+         Target<std::uint32_t>{places.data(), 1});
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (places[i] >= a.count)
             context_.fail(where, fmt::format("accessor {} sparse index {} is {}, but it has {} elements", number, i,
@@ -273,28 +304,31 @@ std::vector<std::uint32_t> Accessors::sparseIndices(const Accessor& a, std::size
 }
 
 template <typename Out>
-std::vector<Out> Accessors::read(std::size_t number, std::string_view where) const {
+void Accessors::read(std::size_t number, std::string_view where, Out* first, std::size_t step) const {
     const Accessor& a = use(number, where);
-    std::vector<Out> out(static_cast<std::size_t>(a.count * a.components));
     if (a.view) {
         const std::uint64_t stride = views_[*a.view].stride ? views_[*a.view].stride : a.elementBytes;
-        copy(a.component, {viewBytes(*a.view).data() + a.byteOffset, a.count, stride, a.components, a.normalized}, {},
-             out);
+        copy(a.component, {viewBytes(*a.view).data() + a.byteOffset, a.count, stride, a.components, a.normalized},
+             Target<Out>{first, step});
+    } else {
+        for (std::uint64_t i = 0; i < a.count; ++i) std::fill_n(first + i * step, a.components, Out(0));
     }
     if (a.sparse) {
         const std::vector<std::uint32_t> places = sparseIndices(a, number, where);
         const std::uint8_t* data = viewBytes(a.sparse->valueView).data() + a.sparse->valueOffset;
-        copy(a.component, {data, a.sparse->count, a.elementBytes, a.components, a.normalized}, places, out);
+        copy(a.component, {data, a.sparse->count, a.elementBytes, a.components, a.normalized},
+             Target<Out>{first, step, places});
     }
-    return out;
 }
 
-std::vector<float> Accessors::floats(std::size_t accessor, std::string_view where) const {
-    return read<float>(accessor, where);
+void Accessors::readFloats(std::size_t accessor, std::string_view where, float* first, std::size_t step) const {
+    read(accessor, where, first, step);
 }
 
 std::vector<std::uint32_t> Accessors::integers(std::size_t accessor, std::string_view where) const {
-    return read<std::uint32_t>(accessor, where);
+    std::vector<std::uint32_t> out(static_cast<std::size_t>(use(accessor, where).count));
+    read(accessor, where, out.data(), 1);
+    return out;
 }
 
 }  // namespace dioptre::gltf

@@ -54,9 +54,9 @@ class Accessors {
     /// Fails, naming the accessor, if one that nobody uses is damaged.
     void checkAll() const;
 
-    /// count * components numbers; normalised integers become -1..1 or 0..1. Charge the memory before.
-    std::vector<float> floats(std::size_t accessor, std::string_view where) const;
-    /// For unsigned components.
+    /// Its elements' numbers to `first`, `first + step`, ...; normalised integers become -1..1 or 0..1.
+    void readFloats(std::size_t accessor, std::string_view where, float* first, std::size_t step) const;
+    /// For unsigned components. Charge the memory before.
     std::vector<std::uint32_t> integers(std::size_t accessor, std::string_view where) const;
 
   private:
@@ -72,7 +72,7 @@ class Accessors {
     std::vector<std::uint32_t> sparseIndices(const Accessor& accessor, std::size_t number,
                                              std::string_view where) const;
     template <typename Out>
-    std::vector<Out> read(std::size_t accessor, std::string_view where) const;
+    void read(std::size_t accessor, std::string_view where, Out* first, std::size_t step) const;
 
     Context& context_;
     std::vector<Bytes> ownBuffers_;

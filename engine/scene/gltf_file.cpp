@@ -127,7 +127,7 @@ Document openDocument(const fs::path& path, Context& context) {
     if (path.extension() == ".glb")
         context.fail("GLB header", fmt::format("starts with \"{}\", must start with \"glTF\"", printable(start)));
     document.json = parseJson(document.file, context);
-    document.file = {};  // its charge stays, for the parsed JSON
+    document.file = Bytes();  // its charge stays, for the parsed JSON
     return document;
 }
 

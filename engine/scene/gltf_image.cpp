@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -76,6 +77,9 @@ ImageSize checkedSize(std::span<const std::uint8_t> bytes, const Element& image)
     return *size;
 }
 
+// While decoding: the decoder's copy and ours, with 16-bit channels at the worst.
+constexpr std::uint64_t kDecodingFactor = 4;
+
 // Native 16-bit channels to 8 bits, rounded; in place, the result being the shorter.
 void reduceTo8Bits(std::vector<unsigned char>& channels) {
     for (std::size_t i = 0; i < channels.size() / 2; ++i) {
@@ -89,32 +93,85 @@ void reduceTo8Bits(std::vector<unsigned char>& channels) {
 
 }  // namespace
 
-TextureImage decodeImage(std::span<const std::uint8_t> bytes, const Element& image, std::uint64_t& decodedBytes) {
-    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        image.fail(fmt::format("has {} bytes, the limit is {}", bytes.size(), std::numeric_limits<int>::max()));
-    const ImageSize size = checkedSize(bytes, image);
-    const std::uint64_t needed = size.width * size.height * 4;
-    const std::uint64_t limit = image.context().limits.maxImageBytes;
-    if (needed > limit - decodedBytes)
-        image.fail(fmt::format("decodes to {} bytes, {} of at most {} bytes of images are in use", needed, decodedBytes,
-                               limit));
-    decodedBytes += needed;
-    // While decoding: the decoder's copy and ours, with 16-bit channels at the worst.
-    constexpr std::uint64_t kDecodingFactor = 4;
-    image.context().charge(needed * kDecodingFactor, image.path());
+ImageDecoder::ImageDecoder(Context& context) : context_(context) {}
 
-    tinygltf::Image decoded;
-    std::string error, warning;
-    const bool done = tinygltf::LoadImageData(&decoded, 0, &error, &warning, 0, 0, bytes.data(),
-                                              static_cast<int>(bytes.size()), nullptr);
-    if (!done) image.fail("cannot be decoded: damaged data");
-    if (decoded.bits == 16) reduceTo8Bits(decoded.image);
-    if (decoded.component != 4 || decoded.image.size() != needed ||
-        static_cast<std::uint64_t>(decoded.width) != size.width)
-        image.fail(fmt::format("cannot be decoded: {} bytes for {} x {} texels", decoded.image.size(), size.width,
-                               size.height));
-    image.context().release(needed * (kDecodingFactor - 1));
-    return {{}, decoded.width, decoded.height, std::move(decoded.image)};
+ImageDecoder::~ImageDecoder() {
+    next_ = jobs_.size();
+    for (std::thread& thread : threads_) thread.join();
+}
+
+int ImageDecoder::add(std::span<const std::uint8_t> bytes, Bytes own, const Element& image) {
+    const std::span<const std::uint8_t> all = own.empty() ? bytes : std::span<const std::uint8_t>(own);
+    if (all.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        image.fail(fmt::format("has {} bytes, the limit is {}", all.size(), std::numeric_limits<int>::max()));
+    const ImageSize size = checkedSize(all, image);
+    const std::uint64_t needed = size.width * size.height * 4, limit = context_.limits.maxImageBytes;
+    if (needed > limit - decodedBytes_)
+        image.fail(fmt::format("decodes to {} bytes, {} of at most {} bytes of images are in use", needed,
+                               decodedBytes_, limit));
+    decodedBytes_ += needed;
+    // What one image takes, decoded after those before it; start() sees to it that several at a time do not take more.
+    context_.charge(needed * kDecodingFactor, image.path());
+    context_.release(needed * (kDecodingFactor - 1));
+    jobs_.push_back({all, std::move(own), image.path(), needed, size.width, {}, {}});
+    // Here and not on the decoding thread, whose heap would keep the memory when the picture is freed
+    jobs_.back().image.rgba.reserve(static_cast<std::size_t>(needed));
+    return static_cast<int>(jobs_.size()) - 1;
+}
+
+void ImageDecoder::start() {
+    std::uint64_t largest = 0;
+    for (const Job& job : jobs_) largest = std::max(largest, job.needed);
+    std::size_t count = std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), jobs_.size());
+    const auto passing = [&] { return count * largest * (kDecodingFactor - 1); };
+    while (count > 1 && passing() > context_.chargeable()) --count;
+    // One at a time has been charged for by add(), image by image.
+    charged_ = count > 1 ? passing() : 0;
+    context_.charge(charged_, "images");
+    for (std::size_t t = 0; t < count; ++t) {
+        threads_.emplace_back([this] {
+            for (std::size_t i = next_++; i < jobs_.size(); i = next_++) decode(jobs_[i]);
+        });
+    }
+}
+
+std::vector<TextureImage> ImageDecoder::finish() {
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+    context_.release(charged_);
+    std::vector<TextureImage> images;
+    for (Job& job : jobs_) {
+        if (!job.problem.empty()) context_.fail(job.path, job.problem);
+        context_.release(job.own.size());
+        images.push_back(std::move(job.image));
+    }
+    jobs_.clear();
+    return images;
+}
+
+void ImageDecoder::decode(Job& job) {
+    try {
+        tinygltf::Image decoded;
+        std::string error, warning;
+        const bool done = tinygltf::LoadImageData(&decoded, 0, &error, &warning, 0, 0, job.bytes.data(),
+                                                  static_cast<int>(job.bytes.size()), nullptr);
+        if (!done) {
+            job.problem = "cannot be decoded: damaged data";
+            return;
+        }
+        if (decoded.bits == 16) reduceTo8Bits(decoded.image);
+        if (decoded.component != 4 || decoded.image.size() != job.needed ||
+            static_cast<std::uint64_t>(decoded.width) != job.width) {
+            job.problem = fmt::format("cannot be decoded: {} bytes for {} x {} texels", decoded.image.size(), job.width,
+                                      job.needed / 4 / job.width);
+            return;
+        }
+        job.image.width = decoded.width;
+        job.image.height = decoded.height;
+        job.image.rgba.assign(decoded.image.begin(), decoded.image.end());
+    } catch (const std::bad_alloc&) {
+        job.problem = "cannot be decoded: out of memory";
+    }
 }
 
 }  // namespace dioptre::gltf

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/gltf_loader.hpp"
@@ -18,7 +20,20 @@
 namespace dioptre::gltf {
 
 using Json = nlohmann::json;
-using Bytes = std::vector<std::uint8_t>;
+
+/// Leaves bytes as they are where a vector would clear them: a file of 100 MB is about to overwrite them anyway.
+struct UnclearedAllocator : std::allocator<std::uint8_t> {
+    template <class Other>
+    struct rebind {
+        using other = UnclearedAllocator;
+    };
+    void construct(std::uint8_t*) {}
+    template <class... Arguments>
+    void construct(std::uint8_t* at, Arguments&&... arguments) {
+        std::construct_at(at, std::forward<Arguments>(arguments)...);
+    }
+};
+using Bytes = std::vector<std::uint8_t, UnclearedAllocator>;
 
 /// Text from a file, fit for a one-line message: UTF-8, all else and control characters escaped, cut after 120 bytes.
 std::string printable(std::string_view text);
@@ -40,6 +55,7 @@ class Context {
     /// Asks for memory before it is allocated; fails, naming `where`, beyond LoadLimits::maxTotalBytes.
     void charge(std::uint64_t bytes, std::string_view where);
     void release(std::uint64_t bytes) { usedBytes_ -= bytes; }
+    std::uint64_t chargeable() const { return limits.maxTotalBytes - usedBytes_; }
 
   private:
     struct Warning {

@@ -118,7 +118,7 @@ class Builder {
         placeOf_.assign(meshes_.size(), -1);
         for (const PlacedNode& node : placed) add(node);
         finishMaterials();
-        scene_.images = std::move(materials_.images);
+        scene_.images = materials_.finishImages();
         if (!root_.list("animations").empty()) root_.warn("animations", "are ignored: drawn as placed in the file");
     }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "scene/gltf_image.hpp"
 #include "scene/gltf_uri.hpp"
 
 namespace dioptre::gltf {
@@ -63,7 +62,10 @@ Sampler readSampler(const Element& element) {
 class Reader {
   public:
     Reader(const Element& root, const Accessors& accessors)
-        : images_(root.list("images")), accessors_(accessors), drawn_(images_.size(), -1) {
+        : decoder(std::make_unique<ImageDecoder>(root.context())),
+          images_(root.list("images")),
+          accessors_(accessors),
+          drawn_(images_.size(), -1) {
         const List samplers = root.list("samplers"), textures = root.list("textures");
         for (std::size_t i = 0; i < samplers.size(); ++i) samplers_.push_back(readSampler(samplers[i]));
         for (std::size_t i = 0; i < images_.size(); ++i) checkImage(images_[i]);
@@ -72,7 +74,8 @@ class Reader {
 
     Material readMaterial(const Element& element, MaterialNeeds& needs);
 
-    std::vector<TextureImage> images;
+    std::unique_ptr<ImageDecoder> decoder;
+    std::vector<std::string> imageNames;  // of those that are drawn
 
   private:
     struct Texture {
@@ -92,7 +95,6 @@ class Reader {
     std::vector<Sampler> samplers_;
     std::vector<Texture> textures_;
     std::vector<int> drawn_;  // of each image in the file, its place in `images`, or -1
-    std::uint64_t decodedBytes_ = 0;
 };
 
 void Reader::checkImage(const Element& image) const {
@@ -115,11 +117,9 @@ int Reader::drawnImage(std::size_t number) {
     const auto view = image.index("bufferView", accessors_.viewCount(), "bufferViews");
     Bytes own;
     if (!view) own = readUri(image);
-    images.push_back(
-        decodeImage(view ? accessors_.viewBytes(*view) : std::span<const std::uint8_t>(own), image, decodedBytes_));
-    image.context().release(own.size());
-    images.back().name = image.text("name").value_or("");
-    return drawn_[number] = static_cast<int>(images.size() - 1);
+    imageNames.push_back(image.text("name").value_or(""));
+    return drawn_[number] = decoder->add(view ? accessors_.viewBytes(*view) : std::span<const std::uint8_t>(),
+                                         std::move(own), image);
 }
 
 TextureSlot Reader::readSlot(const Element& info, MaterialNeeds& needs) {
@@ -206,8 +206,16 @@ Materials readMaterials(const Element& root, const Accessors& accessors) {
     }
     result.materials.emplace_back();
     result.needs.emplace_back();
-    result.images = std::move(reader.images);
+    reader.decoder->start();
+    result.decoder = std::move(reader.decoder);
+    result.imageNames = std::move(reader.imageNames);
     return result;
+}
+
+std::vector<TextureImage> Materials::finishImages() {
+    std::vector<TextureImage> images = decoder->finish();
+    for (std::size_t i = 0; i < images.size(); ++i) images[i].name = imageNames[i];
+    return images;
 }
 
 }  // namespace dioptre::gltf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/gltf_accessor.hpp"
+#include "scene/gltf_image.hpp"
 
 namespace dioptre::gltf {
 
@@ -13,9 +14,13 @@ struct MaterialNeeds {
 };
 
 struct Materials {
-    std::vector<Material> materials;   // as in the file; the default material is the last one
-    std::vector<MaterialNeeds> needs;  // of each material
-    std::vector<TextureImage> images;  // those that are drawn
+    std::vector<Material> materials;        // as in the file; the default material is the last one
+    std::vector<MaterialNeeds> needs;       // of each material
+    std::unique_ptr<ImageDecoder> decoder;  // at work on the images that are drawn
+    std::vector<std::string> imageNames;    // of those
+
+    /// Waits for the images and fails if one is damaged.
+    std::vector<TextureImage> finishImages();
 };
 
 Materials readMaterials(const Element& root, const Accessors& accessors);

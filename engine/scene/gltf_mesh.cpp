@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "scene/vertex_frame.hpp"
@@ -54,12 +55,21 @@ std::vector<std::uint32_t> asTriangles(std::uint64_t mode, std::vector<std::uint
     return out;
 }
 
-void checkFinite(const std::vector<float>& values, std::size_t components, const Accessor& accessor,
-                 const Element& owner, std::string_view key) {
+// Numbers of a vertex, wherever they stand in it.
+struct VertexPart {
+    float* first;  // of the first vertex
+    std::size_t count, components;
+
+    static constexpr std::size_t kStep = sizeof(Vertex) / sizeof(float);
+    float* of(std::size_t vertex) const { return first + vertex * kStep; }
+};
+
+void checkFinite(const VertexPart& part, const Accessor& accessor, const Element& owner, std::string_view key) {
     if (accessor.component != ComponentType::floating) return;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::isfinite(values[i]))
-            owner.fail(key, fmt::format("element {} is {}, must be finite", i / components, values[i]));
+    for (std::size_t i = 0; i < part.count; ++i)
+        for (std::size_t c = 0; c < part.components; ++c)
+            if (!std::isfinite(part.of(i)[c]))
+                owner.fail(key, fmt::format("element {} is {}, must be finite", i, part.of(i)[c]));
 }
 
 // The declared extent, in the units of the data read.
@@ -250,29 +260,28 @@ void MeshReader::readIndices(const Plan& plan, const Element& element, Primitive
     out.indices = asTriangles(plan.mode, std::move(corners));
 }
 
+float* MeshReader::readAttribute(std::size_t accessor, const Element& attributes, std::string_view key,
+                                 std::vector<Vertex>& vertices, std::size_t offset, std::size_t components) const {
+    float* first = reinterpret_cast<float*>(reinterpret_cast<std::uint8_t*>(vertices.data()) + offset);
+    accessors_.readFloats(accessor, attributes.pathOf(key), first, VertexPart::kStep);
+    checkFinite({first, vertices.size(), components}, accessors_.use(accessor, ""), attributes, key);
+    return first;
+}
+
 void MeshReader::readVertices(const Plan& plan, const Element& attributes, Primitive& out) const {
     out.vertices.resize(plan.vertexCount);
-    const Accessor& accessor = accessors_.use(*plan.position, "");
-    const std::vector<float> positions = accessors_.floats(*plan.position, attributes.pathOf("POSITION"));
-    checkFinite(positions, 3, accessor, attributes, "POSITION");
-    for (std::size_t i = 0; i < plan.vertexCount; ++i) {
-        out.vertices[i].position = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-        out.bounds.add(out.vertices[i].position);
-    }
-    checkDeclaredBounds(accessor, out.bounds, attributes, "POSITION");
-    if (!plan.uv) return;
-    const std::vector<float> uvs = accessors_.floats(*plan.uv, attributes.pathOf(plan.uvName));
-    checkFinite(uvs, 2, accessors_.use(*plan.uv, ""), attributes, plan.uvName);
-    for (std::size_t i = 0; i < plan.vertexCount; ++i) out.vertices[i].uv = {uvs[2 * i], uvs[2 * i + 1]};
+    readAttribute(*plan.position, attributes, "POSITION", out.vertices, offsetof(Vertex, position), 3);
+    for (const Vertex& vertex : out.vertices) out.bounds.add(vertex.position);
+    checkDeclaredBounds(accessors_.use(*plan.position, ""), out.bounds, attributes, "POSITION");
+    if (plan.uv) readAttribute(*plan.uv, attributes, plan.uvName, out.vertices, offsetof(Vertex, uv), 2);
 }
 
 void MeshReader::readNormals(const Plan& plan, const Element& attributes, Primitive& out) const {
-    const std::vector<float> normals = accessors_.floats(*plan.normal, attributes.pathOf("NORMAL"));
-    checkFinite(normals, 3, accessors_.use(*plan.normal, ""), attributes, "NORMAL");
+    readAttribute(*plan.normal, attributes, "NORMAL", out.vertices, offsetof(Vertex, normal), 3);
     std::vector<bool> missing;
     for (std::size_t i = 0; i < plan.vertexCount; ++i) {
         // In double precision, where no finite float's square overflows or vanishes.
-        const glm::dvec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
+        const glm::dvec3 normal(out.vertices[i].normal);
         const double length = glm::length(normal);
         if (length > 0.0) {
             out.vertices[i].normal = glm::vec3(normal / length);
@@ -289,14 +298,13 @@ void MeshReader::readNormals(const Plan& plan, const Element& attributes, Primit
 void MeshReader::readTangents(const Plan& plan, const Element& attributes, Primitive& out) const {
     if (!plan.needs.tangent) return;
     if (!plan.tangent || !plan.normal) return computeTangents(out);
-    const std::vector<float> tangents = accessors_.floats(*plan.tangent, attributes.pathOf("TANGENT"));
-    checkFinite(tangents, 4, accessors_.use(*plan.tangent, ""), attributes, "TANGENT");
-    for (std::size_t i = 0; i < plan.vertexCount; ++i) {
-        const glm::dvec3 tangent(tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2]);
+    readAttribute(*plan.tangent, attributes, "TANGENT", out.vertices, offsetof(Vertex, tangent), 4);
+    for (Vertex& vertex : out.vertices) {
+        const glm::dvec3 tangent(vertex.tangent);
         const double length = glm::length(tangent);
         if (!(length > 0.0)) attributes.warn("TANGENT", "zero tangents are replaced");
-        const glm::vec3 unit = length > 0.0 ? glm::vec3(tangent / length) : anyOrthogonal(out.vertices[i].normal);
-        out.vertices[i].tangent = glm::vec4(unit, tangents[4 * i + 3] < 0.0f ? -1.0f : 1.0f);
+        const glm::vec3 unit = length > 0.0 ? glm::vec3(tangent / length) : anyOrthogonal(vertex.normal);
+        vertex.tangent = glm::vec4(unit, vertex.tangent.w < 0.0f ? -1.0f : 1.0f);
     }
 }
 

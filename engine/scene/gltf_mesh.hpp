@@ -23,6 +23,9 @@ class MeshReader {
     void checkAttribute(const Element& attributes, const std::string& semantic, const Accessor& accessor) const;
     std::optional<Primitive> readPrimitive(const Element& primitive) const;
     void readIndices(const Plan& plan, const Element& primitive, Primitive& out) const;
+    /// An accessor's numbers into each vertex, `offset` bytes from its start; where they are in the first one.
+    float* readAttribute(std::size_t accessor, const Element& attributes, std::string_view key,
+                         std::vector<Vertex>& vertices, std::size_t offset, std::size_t components) const;
     void readVertices(const Plan& plan, const Element& attributes, Primitive& out) const;
     void readNormals(const Plan& plan, const Element& attributes, Primitive& out) const;
     void readTangents(const Plan& plan, const Element& attributes, Primitive& out) const;

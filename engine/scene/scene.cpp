@@ -1,5 +1,9 @@
 #include "scene/scene.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace dioptre {
 
 std::size_t Scene::triangleCount() const {
@@ -8,6 +12,30 @@ std::size_t Scene::triangleCount() const {
         for (const Primitive& primitive : meshes[static_cast<std::size_t>(instance.mesh)].primitives)
             count += primitive.indices.size() / 3;
     return count;
+}
+
+std::size_t Scene::bytes() const {
+    std::size_t sum = 0;
+    for (const TextureImage& image : images) sum += image.rgba.size();
+    for (const Mesh& mesh : meshes)
+        for (const Primitive& primitive : mesh.primitives)
+            sum += primitive.vertices.size() * sizeof(Vertex) + primitive.indices.size() * sizeof(std::uint32_t);
+    return sum;
+}
+
+void Scene::releaseBulk() {
+    // Not = {}, which would keep the memory
+    for (TextureImage& image : images) image.rgba = std::vector<std::uint8_t>();
+    for (Mesh& mesh : meshes) {
+        for (Primitive& primitive : mesh.primitives) {
+            primitive.vertices = std::vector<Vertex>();
+            primitive.indices = std::vector<std::uint32_t>();
+        }
+    }
+#ifdef __GLIBC__
+    // Otherwise the heap keeps it for what may come.
+    malloc_trim(0);
+#endif
 }
 
 }  // namespace dioptre

@@ -127,6 +127,10 @@ struct Scene {
     std::vector<std::string> warnings;  // what was ignored, one line each
 
     std::size_t triangleCount() const;  // over instances
+    std::size_t bytes() const;          // of vertices, indices and texels
+
+    /// Frees vertices, indices and texels once they are where they are drawn from; what is left tells of the rest.
+    void releaseBulk();
 };
 
 }  // namespace dioptre
