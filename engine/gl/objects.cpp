@@ -91,9 +91,9 @@ Buffer::Buffer(std::size_t bytes, const void* data, bool dynamic, std::string_vi
     label(GL_BUFFER, name, text);
 }
 
-void Buffer::update(const void* data, std::size_t bytes) {
-    assert(bytes <= bytes_);
-    if (bytes > 0) glNamedBufferSubData(name(), 0, static_cast<GLsizeiptr>(bytes), data);
+void Buffer::update(const void* data, std::size_t bytes, std::size_t offset) {
+    assert(offset + bytes <= bytes_);
+    if (bytes > 0) glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
 Framebuffer::Framebuffer(std::span<const Attachment> colors, const Texture* depth, std::string_view text) {

@@ -91,8 +91,8 @@ class Buffer : public Handle<BufferTraits> {
     Buffer(std::span<const T> data, std::string_view label) : Buffer(data.size_bytes(), data.data(), false, label) {}
 
     std::size_t bytes() const { return bytes_; }
-    /// bytes <= bytes(), at the buffer's start.
-    void update(const void* data, std::size_t bytes);
+    /// offset + bytes <= bytes().
+    void update(const void* data, std::size_t bytes, std::size_t offset = 0);
 
   private:
     std::size_t bytes_ = 0;

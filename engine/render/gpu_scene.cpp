@@ -89,9 +89,9 @@ void GpuScene::uploadMaterials(const Scene& scene) {
 }
 
 void GpuScene::uploadGeometry(const Scene& scene) {
-    const UploadedGeometry geometry = uploadMeshes(scene);
-    vertices_ = Buffer(std::span<const Vertex>(geometry.vertices), "vertices");
-    indices_ = Buffer(std::span<const std::uint32_t>(geometry.indices), "indices");
+    UploadedGeometry geometry = uploadMeshes(scene);
+    vertices_ = std::move(geometry.vertices);
+    indices_ = std::move(geometry.indices);
     bytes_ += vertices_.bytes() + indices_.bytes();
     for (const Instance& instance : scene.instances) {
         const auto& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
@@ -169,6 +169,7 @@ void GpuScene::prepare(const View& view, const Lens* lens, int matrices) const {
     std::vector<gpu::InstanceData> instances(items_.size());
     std::vector<DrawCommand> commands;
     runs_.clear();
+    triangles_ = 0;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         const glm::dmat4 viewFromMesh = viewFrom * item.worldFromMesh;
@@ -177,6 +178,7 @@ void GpuScene::prepare(const View& view, const Lens* lens, int matrices) const {
         if (runs_.empty() || runs_.back().material != item.material || runs_.back().mirrored != item.mirrored)
             runs_.push_back({item.material, item.mirrored, commands.size(), 0});
         ++runs_.back().commandCount;
+        triangles_ += item.indexCount / 3 * static_cast<std::uint64_t>(matrices);
         commands.push_back({item.indexCount, static_cast<GLuint>(matrices), item.firstIndex,
                             static_cast<GLint>(item.baseVertex), static_cast<GLuint>(i)});
     }
@@ -191,6 +193,7 @@ void GpuScene::prepare(const View& view, const Lens* lens, int matrices) const {
 
 void GpuScene::draw(std::span<const glm::mat4> clipFromView, float exposure, float lodBias, bool depthOnly) const {
     if (runs_.empty()) return;
+    trianglesDrawn_ += triangles_;
     // In the samplers: a bias in the shaders costs a CPU rasteriser 40 % of a pinhole frame, whatever its value.
     if (lodBias != lodBias_)
         for (const auto& [description, sampler] : samplers_)

@@ -44,6 +44,8 @@ class GpuScene {
     VergenceRange vergenceRange(const View& view) const;
 
     std::size_t bytes() const { return bytes_; }
+    /// Triangles sent to the GL so far, counted once for each matrix.
+    std::uint64_t trianglesDrawn() const { return trianglesDrawn_; }
 
   private:
     // One primitive of one instance.
@@ -84,9 +86,10 @@ class GpuScene {
         bool mirrored;
         std::size_t firstCommand, commandCount;
     };
-    mutable float lodBias_ = 0.0f;   // that the samplers have
-    mutable std::vector<Run> runs_;  // commands of equal state
-    mutable glm::vec3 up_{0.0f};     // the world's up in view space
+    mutable std::uint64_t triangles_ = 0, trianglesDrawn_ = 0;  // of one draw as prepared; of all draws
+    mutable float lodBias_ = 0.0f;                              // that the samplers have
+    mutable std::vector<Run> runs_;                             // commands of equal state
+    mutable glm::vec3 up_{0.0f};                                // the world's up in view space
     mutable Buffer instances_, lightBuffer_, commands_;
     VertexArray vertexArray_;
     Program unlit_, unlitMask_, lit_, litMask_, depth_, depthMask_;

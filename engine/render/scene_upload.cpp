@@ -105,14 +105,26 @@ GLuint samplerFor(SceneSamplers& samplers, const Sampler& sampler) {
 
 UploadedGeometry uploadMeshes(const Scene& scene) {
     UploadedGeometry all;
+    std::uint32_t vertexCount = 0, indexCount = 0;
     for (const Mesh& mesh : scene.meshes) {
         all.firstPrimitive.push_back(all.primitives.size());
         for (const Primitive& primitive : mesh.primitives) {
-            all.primitives.push_back({static_cast<std::uint32_t>(all.indices.size()),
-                                      static_cast<std::uint32_t>(primitive.indices.size()),
-                                      static_cast<std::uint32_t>(all.vertices.size())});
-            all.vertices.insert(all.vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
-            all.indices.insert(all.indices.end(), primitive.indices.begin(), primitive.indices.end());
+            const auto indices = static_cast<std::uint32_t>(primitive.indices.size());
+            all.primitives.push_back({indexCount, indices, vertexCount});
+            vertexCount += static_cast<std::uint32_t>(primitive.vertices.size());
+            indexCount += indices;
+        }
+    }
+    all.vertices = Buffer(vertexCount * sizeof(Vertex), nullptr, true, "vertices");
+    all.indices = Buffer(indexCount * sizeof(std::uint32_t), nullptr, true, "indices");
+    std::size_t next = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        for (const Primitive& primitive : mesh.primitives) {
+            const PrimitiveRange& range = all.primitives[next++];
+            all.vertices.update(primitive.vertices.data(), primitive.vertices.size() * sizeof(Vertex),
+                                range.baseVertex * sizeof(Vertex));
+            all.indices.update(primitive.indices.data(), primitive.indices.size() * sizeof(std::uint32_t),
+                               range.firstIndex * sizeof(std::uint32_t));
         }
     }
     return all;

@@ -33,11 +33,11 @@ struct PrimitiveRange {
 };
 /// All primitives one after another; mesh i's are primitives[firstPrimitive[i]] and on.
 struct UploadedGeometry {
-    std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices;
+    Buffer vertices, indices;
     std::vector<PrimitiveRange> primitives;
     std::vector<std::size_t> firstPrimitive;
 };
+/// Primitive by primitive into buffers of the total size: there is no second copy of the scene in memory.
 UploadedGeometry uploadMeshes(const Scene& scene);
 void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices,
                       const Buffer& drawIndices);
