@@ -9,7 +9,7 @@
 
 namespace dioptre {
 
-/// The scene that the command line names, else the built-in one; its warnings go to the log.
+/// The scene that the command line names, a file or builtin:NAME, else the studio; its warnings go to the log.
 Scene loadScene(const Command& command);
 
 /// The context that --context names, made current.
@@ -19,5 +19,7 @@ void runRender(const Command& command);
 void runView(const Command& command);
 void runInspect(const Command& command);
 void runCompare(const Command& command);
+void runExport(const Command& command);
+void runMeasure(const Command& command);
 
 }  // namespace dioptre

@@ -42,6 +42,11 @@ std::string sceneText(const Scene& scene) {
     return text;
 }
 
+std::string memoryText(const Scene& scene, const GpuScene& uploaded) {
+    return fmt::format("memory     {:.1f} MB read, freed once uploaded; {:.1f} MB for the GPU\n",
+                       static_cast<double>(scene.bytes()) / 1e6, static_cast<double>(uploaded.bytes()) / 1e6);
+}
+
 std::string lensText(const Settings& settings, const FrameReport& frame) {
     const ResolvedLens& lens = frame.lens;
     std::string text = fmt::format("lens       {}: F {:.4g} mm, aperture diameter {:.3f} mm\n", settings.lens.lens,
@@ -81,12 +86,14 @@ std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
 }  // namespace
 
 void runInspect(const Command& command) {
-    const Scene scene = loadScene(command);
+    Scene scene = loadScene(command);
     std::fputs(sceneText(scene).c_str(), stdout);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
+    const std::string memory = memoryText(scene, maker.scene());
+    scene.releaseBulk();
     const FrameReport& frame = maker.make({});
-    std::fputs((lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
+    std::fputs((memory + lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
 }
 
 }  // namespace dioptre

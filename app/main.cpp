@@ -8,14 +8,15 @@
 #include "commands.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "core/resources.hpp"
+#include "scene/builtin.hpp"
 #include "scene/gltf_loader.hpp"
 
 namespace dioptre {
 
 Scene loadScene(const Command& command) {
-    Scene scene =
-        loadGltf(command.scene.empty() ? resource("assets/scenes/studio.glb") : std::filesystem::path(command.scene));
+    const std::string name = command.scene.empty() ? "builtin:studio" : command.scene;
+    const auto builtin = builtinName(name);
+    Scene scene = builtin ? loadBuiltin(*builtin, cacheFolder()) : loadGltf(name);
     for (const std::string& warning : scene.warnings) logWarning(warning);
     return scene;
 }
@@ -53,6 +54,12 @@ void run(const Command& command) {
             break;
         case Command::Which::compare:
             runCompare(command);
+            break;
+        case Command::Which::exportScene:
+            runExport(command);
+            break;
+        case Command::Which::measure:
+            runMeasure(command);
             break;
     }
 }

@@ -1,6 +1,8 @@
 #include "options.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/image.hpp"
 #include "core/text.hpp"
+#include "scene/builtin.hpp"
 
 #ifndef DIOPTRE_VERSION
 #define DIOPTRE_VERSION "0.1.0"
@@ -23,6 +26,7 @@ namespace {
 
 constexpr double kMinFps = 0.001, kMaxFps = 1000.0;
 constexpr int kMaxFrames = 1000000;
+constexpr int kMaxReferenceSamples = 32768;  // twice that is the most of --samples
 constexpr std::size_t kHelpColumns = 100, kHelpIndent = 30;
 
 /// Settings in the order of the command line, applied once the config file is read.
@@ -69,8 +73,10 @@ std::string helpOf(const Setting& setting) {
     return text + " [" + range + (range.empty() || fallback.empty() ? "" : "; ") + fallback + "]";
 }
 
-void addSettings(CLI::App& command, GivenSettings& given) {
+/// `only` these; all where it is empty.
+void addSettings(CLI::App& command, GivenSettings& given, const std::vector<std::string_view>& only = {}) {
     for (const Setting& setting : settingsTable()) {
+        if (!only.empty() && std::find(only.begin(), only.end(), setting.name) == only.end()) continue;
         const std::string flag = "--" + std::string(setting.name);
         const auto keep = [&given, name = setting.name](const std::string& text) { given.emplace_back(name, text); };
         CLI::Option* option = nullptr;
@@ -102,9 +108,38 @@ void addLog(CLI::App& command, Command& result) {
         ->take_last();
 }
 
+std::string builtinList() {
+    return fmt::format("{}", fmt::join(builtinNames(), ", "));
+}
+
 void addScene(CLI::App& command, Command& result) {
-    command.add_option("SCENE", result.scene, "glTF file (.glb or .gltf); not given: the built-in scene")
-        ->type_name("FILE");
+    command
+        .add_option("SCENE", result.scene,
+                    "glTF file (.glb or .gltf), or one that comes with the program, builtin:NAME: " + builtinList() +
+                        "; not given: builtin:studio")
+        ->type_name("FILE|builtin:NAME");
+}
+
+void addMeasure(CLI::App& command, Command& result, std::vector<std::string>& sizes) {
+    MeasureOptions& options = result.measure;
+    command
+        .add_option("SCENE", options.scenes,
+                    "glTF files (.glb or .gltf), or builtin:NAME: " + builtinList() + "; not given: all of these")
+        ->type_name("FILE|builtin:NAME");
+    command.add_option("--out", result.out, "folder for trade.csv, trade.json, trade-RENDERER.json and index.html")
+        ->type_name("FOLDER")
+        ->take_last();
+    command.add_option("--size", sizes, "size of the pictures, more than one with commas [default 640x480]")
+        ->type_name("WxH,...")
+        ->delimiter(',');
+    command
+        .add_option("--samples", options.samples,
+                    "points of the lens in each of the reference's two halves [1..32768; default 256]")
+        ->type_name("N")
+        ->take_last()
+        ->check(CLI::Range(1, kMaxReferenceSamples).description(""));
+    command.add_flag("--quick", options.quick, "studio alone, 320x240, 64 samples, where not told otherwise");
+    command.add_flag("--resume", options.resume, "keep what the folder holds already, measure the rest");
 }
 
 void addExamples(CLI::App& app) {
@@ -122,6 +157,12 @@ void addExamples(CLI::App& app) {
         "  dioptre view my.glb --lens eye-60 --eye centre");
     app.get_subcommand("inspect")->footer("Example: dioptre inspect my.glb --lens eye-60 --focus 0.4");
     app.get_subcommand("compare")->footer("Example: dioptre compare reference.pfm mine.png");
+    app.get_subcommand("measure")->footer(
+        "Examples:\n"
+        "  dioptre measure --out trade\n"
+        "  dioptre measure my.glb --out trade --size 640x480,1280x960\n"
+        "  dioptre measure --quick --out quick");
+    app.get_subcommand("export")->footer("Example: dioptre export toys --out toys.glb");
 }
 
 // Everything that no option and no positional took: name the first and its nearest relative.
@@ -149,12 +190,39 @@ void rejectExtras(const CLI::App& app) {
                      quote(text) + (nearest.empty() ? "" : ", did you mean " + quote(nearest)));
 }
 
+void checkExport(Command& command) {
+    if (command.scene.empty()) throw InputError("export: NAME is missing, one of " + builtinList());
+    command.scene = requireBuiltinName(command.scene);
+    if (command.out.empty()) throw InputError("export: --out FILE is missing");
+    if (command.out.extension() != ".glb")
+        throw InputError("export: " + quote(command.out.string()) + " must end in .glb");
+}
+
+void checkMeasure(Command& command, const std::vector<std::string>& sizes) {
+    if (command.out.empty()) throw InputError("measure: --out FOLDER is missing");
+    for (const std::string& size : sizes) {
+        Settings one;
+        try {
+            applySetting(one, "size", size);
+        } catch (const InputError& error) {
+            throw InputError("--" + std::string(error.what()));
+        }
+        if (std::find(command.measure.sizes.begin(), command.measure.sizes.end(), one.view.size) ==
+            command.measure.sizes.end())
+            command.measure.sizes.push_back(one.view.size);
+    }
+}
+
 std::string oneLine(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
 
 }  // namespace
+
+std::string programVersion() {
+    return DIOPTRE_VERSION;
+}
 
 Command parseCommandLine(int argc, const char* const* argv) {
     Command result;
@@ -198,7 +266,17 @@ Command parseCommandLine(int argc, const char* const* argv) {
     CLI::App* compare = app.add_subcommand("compare", "tell how far two pictures are apart: PSNR, SSIM and FLIP");
     compare->add_option("A", result.compareA, "reference picture (.png, .exr or .pfm)")->type_name("FILE");
     compare->add_option("B", result.compareB, "picture of the same size that is compared with it")->type_name("FILE");
-    for (CLI::App* command : {render, view, inspect, compare}) command->allow_extras();
+    CLI::App* exporter =
+        app.add_subcommand("export", "write a scene that comes with the program as a binary glTF file");
+    exporter->add_option("NAME", result.scene, "which one: " + builtinList())->type_name("");
+    exporter->add_option("--out", result.out, "file to write (.glb)")->type_name("FILE")->take_last();
+    CLI::App* measure = app.add_subcommand(
+        "measure", "measure how fast and how accurate each technique is: tables, and a page to look at");
+    std::vector<std::string> sizes;
+    addMeasure(*measure, result, sizes);
+    addSettings(*measure, given, {"camera", "pose", "exposure", "context"});
+    const auto commands = {render, view, inspect, compare, measure, exporter};
+    for (CLI::App* command : commands) command->allow_extras();
     addExamples(app);
 
     try {
@@ -207,15 +285,15 @@ Command parseCommandLine(int argc, const char* const* argv) {
         app.exit(asked);
         return result;
     } catch (const CLI::ParseError& error) {
-        for (const CLI::App* command : {render, view, inspect, compare}) rejectExtras(*command);
+        for (const CLI::App* command : commands) rejectExtras(*command);
         throw InputError(oneLine(error.what()));
     } catch (const std::logic_error&) {  // CLI11 reads a flag's value with std::stoll
         throw InputError("a flag's value must be true or false");
     }
-    for (const CLI::App* command : {render, view, inspect, compare}) rejectExtras(*command);
+    for (const CLI::App* command : commands) rejectExtras(*command);
     rejectExtras(app);
     if (app.get_subcommands().empty())
-        throw InputError("no command given: view, render, inspect or compare, see dioptre --help");
+        throw InputError("no command given: view, render, inspect, measure, compare or export, see dioptre --help");
 
     if (!result.config.empty()) loadSettings(result.config, result.settings);
     for (const auto& [name, text] : given) {
@@ -228,13 +306,17 @@ Command parseCommandLine(int argc, const char* const* argv) {
     result.which = render->parsed()    ? Command::Which::render
                    : view->parsed()    ? Command::Which::view
                    : inspect->parsed() ? Command::Which::inspect
-                                       : Command::Which::compare;
+                   : compare->parsed() ? Command::Which::compare
+                   : measure->parsed() ? Command::Which::measure
+                                       : Command::Which::exportScene;
     if (result.which == Command::Which::render && !result.printConfig) {
         if (result.out.empty()) throw InputError("render: --out FILE is missing");
         if (result.frames == 1) requireImageName(result.out);
     }
     if (result.which == Command::Which::compare && result.compareB.empty())
         throw InputError("compare: two pictures are needed, A and B");
+    if (result.which == Command::Which::exportScene) checkExport(result);
+    if (result.which == Command::Which::measure) checkMeasure(result, sizes);
     return result;
 }
 

@@ -2,29 +2,44 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/settings.hpp"
 
 namespace dioptre {
 
+/// Of `measure` alone.
+struct MeasureOptions {
+    std::vector<std::string> scenes;  // files or builtin:NAME; empty: all that come with the program
+    std::vector<PictureSize> sizes;   // empty: 640x480
+    std::optional<int> samples;       // of each half of the reference; none: 256
+    bool quick = false, resume = false;
+};
+
 struct Command {
-    enum class Which { nothingToDo, view, render, inspect, compare };
+    enum class Which { nothingToDo, view, render, inspect, compare, exportScene, measure };
 
     Which which = Which::nothingToDo;  // --help or --version was printed, or --print-config asked for alone
-    std::string scene;                 // a file; empty: the default one
-    std::filesystem::path out;         // render: picture, or folder of a sequence
+    std::string scene;                 // a file or builtin:NAME; empty: the studio. export: NAME or builtin:NAME
+    std::filesystem::path out;         // render: picture, or folder of a sequence; export: GLB file;
+                                       // measure: folder
     int frames = 1;                    // render: > 1 draws a sequence into the folder `out`
     double fps = 30.0;                 // of the sequence, frames per second
     std::string compareA, compareB;    // compare: two picture files
-    std::filesystem::path log;         // render, view: CSV of what was shown; empty: none
-    std::filesystem::path config;      // already read into settings
-    bool printConfig = false;          // print printSettings(settings) and stop
-    Settings settings;                 // defaults < config < command line
+    MeasureOptions measure;
+    std::filesystem::path log;     // render, view: CSV of what was shown; empty: none
+    std::filesystem::path config;  // already read into settings
+    bool printConfig = false;      // print printSettings(settings) and stop
+    Settings settings;             // defaults < config < command line
 };
 
 /// InputError (one line, the nearest known option for a misspelt one) for wrong usage or a bad config file. `--help`
 /// and `--version` print to stdout here and give nothingToDo.
 Command parseCommandLine(int argc, const char* const* argv);
+
+/// "0.1.0"
+std::string programVersion();
 
 }  // namespace dioptre

@@ -14,9 +14,10 @@ namespace dioptre {
 
 void runRender(const Command& command) {
     if (!command.log.empty()) requireWritableName(command.log);
-    const Scene scene = loadScene(command);
+    Scene scene = loadScene(command);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
+    scene.releaseBulk();
     std::vector<FrameReport> shown;
     const auto warnIfLimited = [](const ResolvedLens& lens) {
         if (lens.focusLimited)

@@ -35,7 +35,7 @@ std::optional<glm::dvec2> pointerGaze(GLFWwindow* window, DisplayChoice display)
 
 void runView(const Command& command) {
     if (!command.log.empty()) requireWritableName(command.log);
-    const Scene scene = loadScene(command);
+    Scene scene = loadScene(command);
     const Settings& settings = command.settings;
     const DisplayChoice display = settings.view.eye == EyeChoice::both ? settings.view.display : DisplayChoice::mono;
     const PictureSize size = composedSize(display, settings.view.size);
@@ -43,6 +43,7 @@ void runView(const Command& command) {
     // A key that is pressed and released within one frame counts.
     glfwSetInputMode(window.handle(), GLFW_STICKY_KEYS, GLFW_TRUE);
     FrameMaker maker(scene, settings);
+    scene.releaseBulk();
     std::vector<FrameReport> shown;
     const double start = glfwGetTime();
     while (!glfwWindowShouldClose(window.handle()) && glfwGetKey(window.handle(), GLFW_KEY_ESCAPE) != GLFW_PRESS) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace dioptre {
@@ -43,6 +44,9 @@ void writeImage(const std::filesystem::path& path, const Image& image);
 /// By extension as above; always 3 channels (grey is repeated, alpha dropped), PNG (8 or 16 bits) decoded from sRGB.
 /// InputError naming the file: missing, malformed, truncated, too large, or holding values that are not finite.
 Image readImage(const std::filesystem::path& path);
+
+/// A JPEG file's bytes for a page to look at: sRGB, lossy; quality 1..100. RunError where it cannot be encoded.
+std::string encodeJpeg(const Image& image, int quality);
 
 /// InputError where writeImage could not work: unknown extension, folder missing. Asked before a long run.
 void requireImageName(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// PNG by stb: its compiled code lies in libstb, which tinygltf shares.
+// PNG and JPEG by stb: its compiled code lies in libstb, which tinygltf shares.
 #include <stb_image.h>
 #include <stb_image_write.h>
 
@@ -35,7 +35,28 @@ long long bigEndian(std::string_view bytes) {
     return value;
 }
 
+std::vector<std::uint8_t> eightBits(const Image& image) {
+    std::vector<std::uint8_t> encoded(image.pixels.size());
+    std::transform(image.pixels.begin(), image.pixels.end(), encoded.begin(), [](float linear) {
+        return static_cast<std::uint8_t>(std::lround(255.0F * srgbFromLinear(clampUnit(linear))));
+    });
+    return encoded;
+}
+
+void append(void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+}
+
 }  // namespace
+
+std::string encodeJpeg(const Image& image, int quality) {
+    const std::vector<std::uint8_t> encoded = eightBits(image);
+    std::string bytes;
+    if (!stbi_write_jpg_to_func(append, &bytes, image.width, image.height, image.channels, encoded.data(), quality))
+        throw RunError("cannot be encoded as JPEG, " + std::to_string(image.width) + "x" +
+                       std::to_string(image.height));
+    return bytes;
+}
 
 std::string encodePng(const Image& image) {
     // stb counts bytes in int, and doubles its buffers.
@@ -43,14 +64,8 @@ std::string encodePng(const Image& image) {
     if (image.pixels.size() > kMostBytes)
         throw RunError(std::to_string(image.width) + "x" + std::to_string(image.height) +
                        " is too large for a PNG file of at most 1 GiB, .exr and .pfm take it");
-    std::vector<std::uint8_t> encoded(image.pixels.size());
-    std::transform(image.pixels.begin(), image.pixels.end(), encoded.begin(), [](float linear) {
-        return static_cast<std::uint8_t>(std::lround(255.0F * srgbFromLinear(clampUnit(linear))));
-    });
+    const std::vector<std::uint8_t> encoded = eightBits(image);
     std::string bytes;
-    const auto append = [](void* to, void* data, int size) {
-        static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-    };
     if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, image.channels, encoded.data(),
                                 image.width * image.channels))
         throw RunError("cannot be encoded as PNG, " + std::to_string(image.width) + "x" + std::to_string(image.height));

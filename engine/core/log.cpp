@@ -76,17 +76,18 @@ ProgressLine::~ProgressLine() {
     if (terminal_ && progressShown.exchange(false)) std::fputc('\n', stderr);
 }
 
-void ProgressLine::update(std::size_t done) {
+void ProgressLine::update(std::size_t done, std::string_view note) {
+    const std::string tail = note.empty() ? "" : " " + std::string(note);
     if (!logger().should_log(spdlog::level::info)) return;
     if (terminal_) {
-        std::fprintf(stderr, "\r\033[K%s %zu/%zu", label_.c_str(), done, total_);
+        std::fprintf(stderr, "\r\033[K%s %zu/%zu%s", label_.c_str(), done, total_, tail.c_str());
         progressShown = true;
         return;
     }
     const std::size_t tenths = total_ == 0 ? 10 : done * 10 / total_;
     if (tenths <= shownTenths_) return;
     shownTenths_ = tenths;
-    std::fprintf(stderr, "%s %zu/%zu\n", label_.c_str(), done, total_);
+    std::fprintf(stderr, "%s %zu/%zu%s\n", label_.c_str(), done, total_, tail.c_str());
 }
 
 }  // namespace dioptre

@@ -21,8 +21,8 @@ void logInfo(std::string_view message);
 void logWarning(std::string_view message);  // "warning: ..."
 void logError(std::string_view message);    // "error: ..."
 
-/// "LABEL 12/64": rewritten in place where stderr is a terminal, otherwise one line per tenth of the way. Finishes its
-/// line when it goes away. One at a time.
+/// "LABEL 12/64 NOTE": rewritten in place where stderr is a terminal, otherwise one line per tenth of the way. Finishes
+/// its line when it goes away. One at a time.
 class ProgressLine {
   public:
     ProgressLine(std::string label, std::size_t total);
@@ -30,7 +30,7 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    void update(std::size_t done);
+    void update(std::size_t done, std::string_view note = {});
 
   private:
     std::string label_;

@@ -169,7 +169,7 @@ Dioptres FrameMaker::focusNow(const View& head, const Input& input) {
 
 const FrameReport& FrameMaker::make(const Input& input) {
     const double start = nowMilliseconds();
-    report_.passes.entries.clear();
+    report_.passes.clear();
     report_.time = input.time;
     report_.gaze = gazeNow(input);
     report_.underGaze.reset();

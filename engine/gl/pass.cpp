@@ -14,6 +14,11 @@ int PassLog::count(std::string_view name) const {
         std::count_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.name == name; }));
 }
 
+void PassLog::clear() {
+    entries.clear();
+    skipped.clear();
+}
+
 PassScope::PassScope(PassLog& log, std::string_view name) : log_(log), index_(log.entries.size()) {
     log_.entries.push_back({name, 0.0});
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());

@@ -15,10 +15,18 @@ struct PassLog {
         std::string_view name;  // a literal
         double milliseconds = 0.0;
     };
+    /// A pass that this view does not require.
+    struct Skipped {
+        std::string_view name, why;  // literals
+    };
     bool timed = false;
     std::vector<Entry> entries;
+    std::vector<Skipped> skipped;
 
     int count(std::string_view name) const;
+    void skip(std::string_view name, std::string_view why) { skipped.push_back({name, why}); }
+    /// Ready for the next frame.
+    void clear();
 };
 
 class PassScope {

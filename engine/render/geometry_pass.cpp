@@ -44,6 +44,8 @@ void GeometryPass::draw(const GpuScene& scene, const View& view, float exposure,
         resolve_.draw();
         glDepthFunc(GL_GREATER);
         glDisable(GL_DEPTH_TEST);
+    } else {
+        log.skip("resolve", "one sample a pixel");
     }
 }
 

@@ -17,6 +17,8 @@ class GeometryPass {
     const Texture& color() const { return color_; }  // RGBA16F, linear radiance × exposure, background black
     const Texture& depth() const { return depth_; }  // D32F, near/d; 0 is infinitely far
     std::size_t bytes() const;
+    /// Texture fetches a pixel of the resolve, as Technique::fetchesPerPixel counts them.
+    static double fetchesPerPixel(int msaa) { return 2.0 * msaa; }
 
   private:
     void resize(int width, int height, int msaa);

@@ -18,6 +18,38 @@ std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice) {
     return nullptr;
 }
 
+std::string_view techniqueName(TechniqueChoice choice) {
+    switch (choice) {
+        case TechniqueChoice::pinhole:
+            return "pinhole";
+        case TechniqueChoice::mipmap:
+            return "mipmap";
+        case TechniqueChoice::reference:
+            return "reference";
+    }
+    return "";
+}
+
+std::vector<std::pair<std::string_view, int>> TechniqueDials::dials() const {
+    std::vector<std::pair<std::string_view, int>> list;
+    if (msaa) list.emplace_back("msaa", *msaa);
+    if (samples) list.emplace_back("samples", *samples);
+    return list;
+}
+
+void TechniqueDials::apply(EyeFrame& frame) const {
+    if (msaa) frame.msaa = *msaa;
+    if (samples) frame.samples = *samples;
+}
+
+std::vector<TechniqueDials> measuredDials() {
+    std::vector<TechniqueDials> all;
+    for (const TechniqueChoice choice : {TechniqueChoice::pinhole, TechniqueChoice::mipmap})
+        for (const int msaa : {0, 4}) all.push_back({choice, msaa, {}});
+    for (const int samples : {8, 16, 32, 64, 128}) all.push_back({TechniqueChoice::reference, {}, samples});
+    return all;
+}
+
 CocTransform cocTransform(const EyeFrame& frame) {
     return cocFromDepth(frame.lens, focalLengthPixels(frame.view).x, frame.view.near);
 }

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/settings.hpp"
 #include "gl/objects.hpp"
@@ -45,10 +48,31 @@ class Technique {
 
     /// Textures held, the geometry pass's included.
     virtual std::size_t bytes() const = 0;
+
+    /// Texture fetches of the full-screen passes of the last picture, divided by its pixels: the most that any pixel
+    /// can ask for (loops that a pixel may leave out count in full). A bilinear fetch, a gather or a texelFetch is one;
+    /// fetches of the scene's surfaces are left out. None where nobody counted them.
+    virtual std::optional<double> fetchesPerPixel() const { return std::nullopt; }
 };
 
 /// One instance per eye: it keeps that eye's buffers. New techniques join the list in technique.cpp.
 std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
+
+/// "mipmap"
+std::string_view techniqueName(TechniqueChoice choice);
+
+/// A technique and the values of its dials; a dial that it does not have is empty.
+struct TechniqueDials {
+    TechniqueChoice technique = TechniqueChoice::pinhole;
+    std::optional<int> msaa, samples;
+
+    /// Those it has, {"msaa", 4}.
+    std::vector<std::pair<std::string_view, int>> dials() const;
+    void apply(EyeFrame& frame) const;
+};
+
+/// What is worth measuring of each technique, cheapest first within one. New techniques join the list in technique.cpp.
+std::vector<TechniqueDials> measuredDials();
 
 /// CoC transform of an eye's picture: pixel radii along x (pixels are square but for half-width displays).
 CocTransform cocTransform(const EyeFrame& frame);

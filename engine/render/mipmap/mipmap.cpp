@@ -88,6 +88,7 @@ void Mipmap::buildPyramid(const Blur& blur, PassLog& log) {
     // level alone: some drivers then switch to a cheaper fetch, and the price would jump in the middle of a focus pull.
     const int deepest = static_cast<int>(mipmap::tapLevel(std::max(blur.coc.bias, mipmap::kFrontComplete))) + 1;
     const int levels = blur.front ? levelCount_ : std::min(levelCount_, std::max(deepest, 2));
+    if (levels < levelCount_) log.skip("pyramid's coarsest levels", "the largest blur does not read them");
     PassScope scope(log, "pyramid");
     const auto readLevels = [&](int first, int last) {
         for (const Texture* texture : {&layers_, &spread_}) {
@@ -118,6 +119,9 @@ void Mipmap::blurHalfSize(const Blur& blur, PassLog& log) {
         reachPass_.program().set("top", levelCount_ - 1);
         reachPass_.program().set("tiles", glm::vec2(reach_.width(), reach_.height()));
         reachPass_.draw();
+    } else {
+        log.skip("reach", "nothing lies so far in front of focus that it blurs");
+        log.skip("foreground layers", "nothing lies so far in front of focus that it blurs");
     }
     PassScope scope(log, "blur");
     passes.blurred.bind();
@@ -146,9 +150,15 @@ void Mipmap::composite(const Blur& blur, PassLog& log) {
 const Texture& Mipmap::draw(const EyeFrame& frame) {
     geometry_.draw(frame.scene, frame.view, frame.exposure, frame.msaa, frame.log);
     resize(frame.view.width, frame.view.height);
+    drawnMsaa_ = frame.msaa;
     const Blur blur = requiredBlur(frame);
+    drawnFront_ = blur.front;
+    drawnBlur_ = blur.any || frame.show.stage != ShowChoice::none;
     // Nothing out of focus anywhere: the pinhole picture is the picture.
-    if (!blur.any && frame.show.stage == ShowChoice::none) return geometry_.color();
+    if (!drawnBlur_) {
+        frame.log.skip("blur", "nothing is out of focus");
+        return geometry_.color();
+    }
     buildPyramid(blur, frame.log);
     blurHalfSize(blur, frame.log);
     if (frame.show.stage != ShowChoice::none) return show(frame, blur);
@@ -174,6 +184,19 @@ const Texture& Mipmap::show(const EyeFrame& frame, const Blur& blur) {
     program.set("size", glm::vec2(frame.view.width, frame.view.height));
     showPass_.draw();
     return show_.picture();
+}
+
+std::optional<double> Mipmap::fetchesPerPixel() const {
+    if (!drawnBlur_) return GeometryPass::fetchesPerPixel(drawnMsaa_);
+    // As the shaders read: split (colour, depth of 2×2), down (four taps a layer, of the radii a tap and a gather),
+    // reach (7×7 and the top), blur (depth; its own taps; with a foreground what it hides, the reach, the nearer taps).
+    constexpr double kHalf = 0.25, kTaps = 16.0, kLayers = 3.0;
+    const double down = drawnFront_ ? 4.0 * (kLayers + 2.0) : 4.0;
+    const double blur = 1.0 + kTaps + (drawnFront_ ? 2.0 + 4.0 + 1.0 + 2.0 * kTaps : 0.0);
+    double sum = GeometryPass::fetchesPerPixel(drawnMsaa_) + kHalf * (8.0 + blur) + (drawnFront_ ? 4.0 : 3.0);
+    if (drawnFront_) sum += kHalf * 50.0 / (mipmap::kReachTile * mipmap::kReachTile);
+    for (int level = 1; level < builtLevels_; ++level) sum += kHalf * down * std::exp2(-2.0 * level);
+    return sum;
 }
 
 std::size_t Mipmap::bytes() const {

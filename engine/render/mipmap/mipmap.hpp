@@ -40,6 +40,7 @@ class Mipmap final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
     std::size_t bytes() const override;
+    std::optional<double> fetchesPerPixel() const override;
 
   private:
     /// What the view requires, from bounding boxes.
@@ -69,9 +70,11 @@ class Mipmap final : public Technique {
     ShowPass show_;
     int levelCount_ = 0;
     int builtLevels_ = 0;  // of the last pyramid
-    Texture layers_;       // RGBA16F array, half size, a pyramid: base, front, back, each rgb·weight, weight
-    Texture spread_;       // RG16F, half size, a pyramid: the foreground's largest radius, and its mean · coverage, px
-    Texture reach_;        // R16F, a texel per 8×8 pixels: the largest foreground radius that reaches it, px
+    int drawnMsaa_ = 0;    // of the last picture
+    bool drawnBlur_ = false, drawnFront_ = false;
+    Texture layers_;  // RGBA16F array, half size, a pyramid: base, front, back, each rgb·weight, weight
+    Texture spread_;  // RG16F, half size, a pyramid: the foreground's largest radius, and its mean · coverage, px
+    Texture reach_;   // R16F, a texel per 8×8 pixels: the largest foreground radius that reaches it, px
     Texture behind_, front_;  // RGBA16F, half size, premultiplied
     Texture output_;
     Framebuffer reachTarget_, outputTarget_;

@@ -11,8 +11,10 @@ class Pinhole final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
     std::size_t bytes() const override { return geometry_.bytes(); }
+    std::optional<double> fetchesPerPixel() const override { return GeometryPass::fetchesPerPixel(msaa_); }
 
   private:
+    int msaa_ = 0;  // of the last picture
     GeometryPass geometry_;
     ShowPass show_;
 };

@@ -18,6 +18,8 @@ class Reference final : public Technique {
     const Texture& draw(const EyeFrame& frame) override;
     double progress() const override { return static_cast<double>(drawn_) / key_.samples; }
     std::size_t bytes() const override;
+    /// Each sample is read once, the sum once.
+    std::optional<double> fetchesPerPixel() const override { return drawn_ + 1.0; }
 
   private:
     /// What the sum so far is of.

@@ -1,0 +1,87 @@
+#include "frame/measure_content.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+
+namespace dioptre {
+
+void ContentHash::addBytes(const void* data, std::size_t size) {
+    // FNV-1a's step on eight bytes at a time, with the high half folded back: its multiplication moves bits only up.
+    const auto step = [this](std::uint64_t word) {
+        value_ = (value_ ^ word) * 0x9e3779b97f4a7c15ULL;
+        value_ ^= value_ >> 32;
+    };
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    std::size_t at = 0;
+    for (; at + 8 <= size; at += 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes + at, 8);
+        step(word);
+    }
+    std::uint64_t rest = 0;
+    if (at < size) std::memcpy(&rest, bytes + at, size - at);
+    step(rest);
+    step(size);
+}
+
+void ContentHash::addText(std::string_view text) {
+    addBytes(text.data(), text.size());
+}
+void ContentHash::add(double value) {
+    add(std::bit_cast<std::uint64_t>(value));
+}
+void ContentHash::add(std::uint64_t value) {
+    addBytes(&value, sizeof value);
+}
+std::string ContentHash::hex() const {
+    return fmt::format("{:016x}", value_);
+}
+
+std::string contentOf(const Scene& scene) {
+    ContentHash hash;
+    const auto addFloats = [&](const auto& v) { hash.addBytes(&v, sizeof v); };  // glm types have no gaps
+    const auto addVector = [&](const auto& v) { hash.addBytes(v.data(), v.size() * sizeof v[0]); };
+    for (const TextureImage& image : scene.images) {
+        hash.add(static_cast<std::uint64_t>(image.width));
+        addVector(image.rgba);
+    }
+    for (const Material& m : scene.materials) {
+        addFloats(m.baseColor);
+        addFloats(m.emissive);
+        for (const float value : {m.metallic, m.roughness, m.normalScale, m.alphaCutoff})
+            hash.add(static_cast<double>(value));
+        hash.add(static_cast<std::uint64_t>((m.alphaMode == AlphaMode::mask ? 1 : 0) + (m.doubleSided ? 2 : 0) +
+                                            (m.unlit ? 4 : 0)));
+        for (const TextureSlot* slot :
+             {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture}) {
+            const Sampler& s = slot->sampler;
+            const int fields[] = {slot->image, static_cast<int>(s.wrapS), static_cast<int>(s.wrapT),
+                                  static_cast<int>(s.magnification), static_cast<int>(s.minification)};
+            hash.addBytes(fields, sizeof fields);
+        }
+    }
+    static_assert(sizeof(Vertex) == 12 * sizeof(float));
+    for (const Mesh& mesh : scene.meshes) {
+        hash.add(static_cast<std::uint64_t>(mesh.primitives.size()));
+        for (const Primitive& primitive : mesh.primitives) {
+            addVector(primitive.vertices);
+            addVector(primitive.indices);
+            hash.add(static_cast<std::uint64_t>(primitive.material));
+        }
+    }
+    for (const Instance& instance : scene.instances) {
+        hash.add(static_cast<std::uint64_t>(instance.mesh));
+        addFloats(instance.worldFromMesh);
+    }
+    for (const Light& light : scene.lights) {
+        hash.add(static_cast<std::uint64_t>(light.kind));
+        for (const glm::vec3& v : {light.color, light.position, light.direction}) addFloats(v);
+        for (const float value : {light.range, light.innerConeCos, light.outerConeCos})
+            hash.add(static_cast<double>(value));
+    }
+    return hash.hex();
+}
+
+}  // namespace dioptre

@@ -1,0 +1,137 @@
+#include "frame/measure_frames.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "gl/objects.hpp"
+
+namespace dioptre {
+
+namespace {
+
+// Nine frames leave one on each side of the 10th and 90th percentile. Frames of seconds vary less.
+constexpr int kFrames = 9, kSlowFrames = 3, kStageFrames = 3;
+constexpr double kStagesOnceMilliseconds = 200.0;
+// A first frame that takes so many times the limit is slow without its compiling, too.
+constexpr double kMaySlow = 2.0;
+
+/// Linux keeps the most memory that a process had resident, and forgets it on request.
+void forgetPeak() {
+    std::ofstream("/proc/self/clear_refs") << "5";
+}
+std::uint64_t peakBytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        if (word != "VmHWM:") continue;
+        std::uint64_t kilobytes = 0;
+        status >> kilobytes;
+        return kilobytes * 1024;
+    }
+    return 0;
+}
+
+double timedFrame(Technique& technique, const EyeFrame& frame) {
+    frame.log.clear();
+    glFinish();
+    const double start = nowMilliseconds();
+    technique.draw(frame);
+    glFinish();
+    return nowMilliseconds() - start;
+}
+
+/// Sums by name, in the order of the frame.
+std::vector<MeasuredStage> stagesOf(const PassLog& log) {
+    std::vector<MeasuredStage> stages;
+    for (const PassLog::Entry& entry : log.entries) {
+        auto stage =
+            std::find_if(stages.begin(), stages.end(), [&](const MeasuredStage& s) { return s.name == entry.name; });
+        if (stage == stages.end()) stage = stages.insert(stages.end(), {std::string(entry.name), 0.0, 0});
+        stage->milliseconds += entry.milliseconds;
+        ++stage->runs;
+    }
+    return stages;
+}
+
+std::vector<MeasuredStage> medianStages(const std::vector<std::vector<MeasuredStage>>& frames) {
+    std::vector<MeasuredStage> result = frames.front();
+    for (std::size_t s = 0; s < result.size(); ++s) {
+        std::vector<double> values;
+        for (const auto& stages : frames)
+            if (s < stages.size()) values.push_back(stages[s].milliseconds);
+        result[s].milliseconds = percentile(values, 0.5);
+    }
+    return result;
+}
+
+}  // namespace
+
+VergenceStatistics visibleVergences(const GpuScene& scene, const View& view) {
+    const Texture depth({GL_DEPTH_COMPONENT32F, view.width, view.height, 1, 0}, "visible depth");
+    const Framebuffer target({}, &depth, "visible depth");
+    target.bind();
+    const float infinitelyFar = 0.0f;
+    glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitelyFar);
+    scene.drawDepth(view);
+    std::vector<double> vergences;
+    for (const float stored : readTexture(depth, GL_DEPTH_COMPONENT, 1))
+        if (stored > 0.0f) vergences.push_back(static_cast<double>(stored) / view.near.value);
+    return VergenceStatistics(std::move(vergences));
+}
+
+std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const TechniqueDials& dials,
+                                             const std::function<bool()>& stopped) {
+    forgetPeak();
+    MeasuredPicture result;
+    MeasuredRow& row = result.row;
+    row.technique = techniqueName(dials.technique);
+    for (const auto& [name, value] : dials.dials()) row.dials.emplace(name, value);
+
+    const auto technique = makeTechnique(dials.technique);
+    PassLog log;
+    EyeFrame frame{request.scene, request.view, request.lens, request.exposure, 0, {}, log};
+    dials.apply(frame);
+    frame.firstSample = request.firstSample;
+
+    // The picture, and what drawing it took besides time
+    const std::uint64_t trianglesBefore = request.scene.trianglesDrawn();
+    glFinish();
+    const double start = nowMilliseconds();
+    const Texture& picture = technique->draw(frame);
+    result.picture = Image(request.view.width, request.view.height);
+    result.picture.pixels = readTexture(picture, GL_RGB, 3);
+    double each = nowMilliseconds() - start;
+    row.triangles = request.scene.trianglesDrawn() - trianglesBefore;
+    row.fetchesPerPixel = technique->fetchesPerPixel();
+    row.techniqueBytes = technique->bytes();
+    for (const PassLog::Skipped& skipped : log.skipped)
+        row.skipped.push_back({std::string(skipped.name), std::string(skipped.why)});
+
+    // Finished frames; the first, above, compiled shaders, which matters where it was not slow anyhow
+    if (each < kMaySlow * request.slowMilliseconds) each = timedFrame(*technique, frame);
+    const bool slow = each > request.slowMilliseconds;
+    std::vector<double> milliseconds;
+    std::vector<std::vector<MeasuredStage>> stages;
+    log.timed = slow;
+    for (int i = 0; i < (slow ? kSlowFrames : kFrames); ++i) {
+        if (stopped()) return std::nullopt;
+        milliseconds.push_back(timedFrame(*technique, frame));
+        if (slow) stages.push_back(stagesOf(log));
+    }
+    row.time = timingOf(milliseconds);
+
+    // By stage, in frames of their own since the waits between stages cost time
+    log.timed = true;
+    const int stageFrames = slow ? 0 : each > kStagesOnceMilliseconds ? 1 : kStageFrames;
+    for (int i = 0; i < stageFrames; ++i) {
+        if (stopped()) return std::nullopt;
+        timedFrame(*technique, frame);
+        stages.push_back(stagesOf(log));
+    }
+    row.stages = medianStages(stages);
+    row.processPeakBytes = peakBytes();
+    return result;
+}
+
+}  // namespace dioptre

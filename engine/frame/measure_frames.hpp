@@ -1,0 +1,38 @@
+// One technique, one setting of its dials, one view: its picture, and what that costs.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/image.hpp"
+#include "frame/measure_lens.hpp"
+#include "frame/measure_rows.hpp"
+#include "optics/view.hpp"
+#include "render/technique.hpp"
+
+namespace dioptre {
+
+/// The vergences of all pixels where something is drawn.
+VergenceStatistics visibleVergences(const GpuScene& scene, const View& view);
+
+struct FrameRequest {
+    const GpuScene& scene;
+    const View& view;
+    const Lens& lens;
+    float exposure = 1.0f;
+    int firstSample = 0;  // where a technique's samples of the lens begin: beyond those of the reference
+    double slowMilliseconds = 1000.0;
+};
+
+struct MeasuredPicture {
+    MeasuredRow row;  // all but view, error and pareto
+    Image picture;
+};
+
+/// Draws with a technique of its own, made and freed here: the picture and nine warm frames, then frames timed by
+/// stage. Where a frame takes longer than slowMilliseconds, three frames serve for both: the waits between stages are
+/// nothing to it. None where `stopped` said so between two frames.
+std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const TechniqueDials& dials,
+                                             const std::function<bool()>& stopped);
+
+}  // namespace dioptre
