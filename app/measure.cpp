@@ -20,7 +20,7 @@ namespace dioptre {
 namespace {
 
 // So that --quick ends within two minutes on two cores.
-constexpr double kQuickSlowMilliseconds = 200.0;
+constexpr double kQuickRowMilliseconds = 1500.0;
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -52,7 +52,7 @@ MeasureRequest requestOf(const Command& command, std::size_t scenes) {
     request.sizes = options.sizes;
     if (request.sizes.empty()) request.sizes.push_back(options.quick ? PictureSize{320, 240} : PictureSize{640, 480});
     request.samplesPerHalf = options.samples.value_or(options.quick ? 64 : 256);
-    if (options.quick) request.slowMilliseconds = kQuickSlowMilliseconds;
+    if (options.quick) request.rowMilliseconds = kQuickRowMilliseconds;
     request.exposureEv = command.settings.render.exposureEv;
     request.view = command.settings.view;
     request.resume = options.resume;

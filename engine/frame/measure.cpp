@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::size_t kLargestTable = 64u << 20;
 // What a row costs besides its frames, and a reference besides its samples, in drawings of the scene: comparing,
-// writing, a technique's shaders.
+// writing, a technique's shaders. Few frames are drawn of many samples.
 constexpr double kRowWork = 40.0, kReferenceWork = 20.0;
-constexpr double kFramesOfARow = 9.0;
+constexpr double kFramesOfARow = 12.0, kSampledFramesOfARow = 4.0;
 // With more samples than half of one of the reference's halves a technique could not be told from the reference's
 // noise.
 constexpr double kMostSamples = 0.5;
@@ -57,7 +57,7 @@ Measuring::Measuring(MeasureRequest request) : request_(std::move(request)), pic
     all_.with.commit = request_.commit;
     all_.with.context = request_.context;
     all_.with.samplesPerHalf = request_.samplesPerHalf;
-    all_.with.slowMs = request_.slowMilliseconds;
+    all_.with.rowMs = request_.rowMilliseconds;
     all_.with.exposureEv = request_.exposureEv;
     for (const PictureSize& size : request_.sizes)
         all_.with.sizes.push_back(fmt::format("{}x{}", size.width, size.height));
@@ -83,7 +83,7 @@ Measuring::Measuring(MeasureRequest request) : request_(std::move(request)), pic
     rowsWanted_ = request_.scenes * request_.sizes.size() * kViews * dials_.size();
     double workOfAView = kReferenceWork + 2.0 * request_.samplesPerHalf;
     for (const TechniqueDials& d : dials_) {
-        work_.push_back(kRowWork + kFramesOfARow * std::max(1, d.samples.value_or(1)));
+        work_.push_back(kRowWork + (d.samples ? kSampledFramesOfARow * *d.samples : kFramesOfARow));
         workOfAView += work_.back();
     }
     for (const PictureSize& size : request_.sizes)
@@ -202,7 +202,7 @@ bool Measuring::measureRow(const Subject& subject, const MeasuredView& view, std
     // Techniques that take samples take others than the reference did: its error would look smaller than it is.
     auto measured =
         measureFrames({subject.scene, subject.view, subject.lens, static_cast<float>(std::exp2(request_.exposureEv)),
-                       2 * request_.samplesPerHalf, request_.slowMilliseconds},
+                       2 * request_.samplesPerHalf, request_.rowMilliseconds},
                       dials, request_.stopped);
     if (!measured) return false;
     MeasuredRow& row = measured->row;

@@ -22,7 +22,7 @@ struct MeasureRequest {
     std::filesystem::path folder;  // made if missing
     std::vector<PictureSize> sizes{{640, 480}};
     int samplesPerHalf = 256;          // of the reference; it is the mean of two halves
-    double slowMilliseconds = 1000.0;  // from there on a frame is measured three times instead of nine
+    double rowMilliseconds = 6000.0;  // fewer than nine frames, not fewer than two, where nine take longer
     double exposureEv = 0.0;
     ViewSettings view;            // camera, pose
     bool resume = false;          // keep the rows that are in the folder

@@ -12,10 +12,8 @@ namespace dioptre {
 namespace {
 
 // Nine frames leave one on each side of the 10th and 90th percentile. Frames of seconds vary less.
-constexpr int kFrames = 9, kSlowFrames = 3, kStageFrames = 3;
-constexpr double kStagesOnceMilliseconds = 200.0;
-// A first frame that takes so many times the limit is slow without its compiling, too.
-constexpr double kMaySlow = 2.0;
+constexpr int kMostFrames = 9, kLeastFrames = 2, kStageFrames = 3;
+constexpr double kSlowMilliseconds = 200.0;
 
 /// Linux keeps the most memory that a process had resident, and forgets it on request.
 void forgetPeak() {
@@ -32,13 +30,18 @@ std::uint64_t peakBytes() {
     return 0;
 }
 
-double timedFrame(Technique& technique, const EyeFrame& frame) {
+struct TimedFrame {
+    const Texture& picture;
+    double milliseconds;
+};
+
+TimedFrame drawTimed(Technique& technique, const EyeFrame& frame) {
     frame.log.clear();
     glFinish();
     const double start = nowMilliseconds();
-    technique.draw(frame);
+    const Texture& picture = technique.draw(frame);
     glFinish();
-    return nowMilliseconds() - start;
+    return {picture, nowMilliseconds() - start};
 }
 
 /// Sums by name, in the order of the frame.
@@ -94,41 +97,37 @@ std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const 
     dials.apply(frame);
     frame.firstSample = request.firstSample;
 
-    // The picture, and what drawing it took besides time
+    // Compiles what the driver compiles at first use
+    EyeFrame least = frame;
+    least.samples = 1;
+    technique->draw(least);
+
+    // The picture, and what drawing it took
     const std::uint64_t trianglesBefore = request.scene.trianglesDrawn();
-    glFinish();
-    const double start = nowMilliseconds();
-    const Texture& picture = technique->draw(frame);
-    result.picture = Image(request.view.width, request.view.height);
-    result.picture.pixels = readTexture(picture, GL_RGB, 3);
-    double each = nowMilliseconds() - start;
+    const TimedFrame first = drawTimed(*technique, frame);
     row.triangles = request.scene.trianglesDrawn() - trianglesBefore;
     row.fetchesPerPixel = technique->fetchesPerPixel();
     row.techniqueBytes = technique->bytes();
     for (const PassLog::Skipped& skipped : log.skipped)
         row.skipped.push_back({std::string(skipped.name), std::string(skipped.why)});
+    result.picture = Image(request.view.width, request.view.height);
+    result.picture.pixels = readTexture(first.picture, GL_RGB, 3);
 
-    // Finished frames; the first, above, compiled shaders, which matters where it was not slow anyhow
-    if (each < kMaySlow * request.slowMilliseconds) each = timedFrame(*technique, frame);
-    const bool slow = each > request.slowMilliseconds;
-    std::vector<double> milliseconds;
+    // More finished frames. By stage: in the same ones where the waits between stages are nothing to them, otherwise in
+    // some of their own.
+    const bool slow = first.milliseconds > kSlowMilliseconds;
+    const int frames =
+        static_cast<int>(std::clamp(request.rowMilliseconds / first.milliseconds, 1.0 * kLeastFrames, 1.0 * kMostFrames));
+    std::vector<double> milliseconds{first.milliseconds};
     std::vector<std::vector<MeasuredStage>> stages;
-    log.timed = slow;
-    for (int i = 0; i < (slow ? kSlowFrames : kFrames); ++i) {
+    for (int i = 1; i < frames + (slow ? 0 : kStageFrames); ++i) {
         if (stopped()) return std::nullopt;
-        milliseconds.push_back(timedFrame(*technique, frame));
-        if (slow) stages.push_back(stagesOf(log));
+        log.timed = slow || i >= frames;
+        const TimedFrame next = drawTimed(*technique, frame);
+        if (i < frames) milliseconds.push_back(next.milliseconds);
+        if (log.timed) stages.push_back(stagesOf(log));
     }
     row.time = timingOf(milliseconds);
-
-    // By stage, in frames of their own since the waits between stages cost time
-    log.timed = true;
-    const int stageFrames = slow ? 0 : each > kStagesOnceMilliseconds ? 1 : kStageFrames;
-    for (int i = 0; i < stageFrames; ++i) {
-        if (stopped()) return std::nullopt;
-        timedFrame(*technique, frame);
-        stages.push_back(stagesOf(log));
-    }
     row.stages = medianStages(stages);
     row.processPeakBytes = peakBytes();
     return result;

@@ -21,7 +21,7 @@ struct FrameRequest {
     const Lens& lens;
     float exposure = 1.0f;
     int firstSample = 0;  // where a technique's samples of the lens begin: beyond those of the reference
-    double slowMilliseconds = 1000.0;
+    double rowMilliseconds = 6000.0;  // fewer than nine frames where nine take longer
 };
 
 struct MeasuredPicture {
@@ -29,9 +29,8 @@ struct MeasuredPicture {
     Image picture;
 };
 
-/// Draws with a technique of its own, made and freed here: the picture and nine warm frames, then frames timed by
-/// stage. Where a frame takes longer than slowMilliseconds, three frames serve for both: the waits between stages are
-/// nothing to it. None where `stopped` said so between two frames.
+/// Draws with a technique of its own, made and freed here: two to nine warm frames, then three that are timed by stage;
+/// slow frames serve for both. None where `stopped` said so between two frames.
 std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const TechniqueDials& dials,
                                              const std::function<bool()>& stopped);
 

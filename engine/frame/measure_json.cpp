@@ -136,7 +136,7 @@ std::string measurementsJson(const Measurements& all) {
               {"load", w.load},
               {"settings",
                {{"samples_per_half", w.samplesPerHalf},
-                {"slow_ms", w.slowMs},
+                {"row_ms", w.rowMs},
                 {"exposure_ev", w.exposureEv},
                 {"sizes", w.sizes},
                 {"blurs", w.blurs}}},
@@ -167,7 +167,7 @@ Measurements parseMeasurements(std::string_view json, std::string_view where) {
         const Json& settings = j.at("settings");
         w.samplesPerHalf = settings.at("samples_per_half").get<int>();
         w.load = j.at("load").get<double>();
-        w.slowMs = settings.at("slow_ms").get<double>();
+        w.rowMs = settings.at("row_ms").get<double>();
         w.exposureEv = settings.at("exposure_ev").get<double>();
         w.sizes = settings.at("sizes").get<std::vector<std::string>>();
         w.blurs = settings.at("blurs").get<std::map<std::string, double>>();

@@ -31,7 +31,7 @@ std::string MeasuredRow::dialsText() const {
 bool MeasuredWith::comparable(const MeasuredWith& other) const {
     const auto all = [](const MeasuredWith& w) {
         return std::tie(w.program, w.commit, w.renderer, w.version, w.context, w.cpu, w.system, w.cores,
-                        w.samplesPerHalf, w.slowMs, w.exposureEv, w.blurs);
+                        w.samplesPerHalf, w.rowMs, w.exposureEv, w.blurs);
     };
     return all(*this) == all(other);
 }

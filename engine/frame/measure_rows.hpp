@@ -3,7 +3,7 @@
 // trade.json, schema 1. All keys are always there; null is an infinite number, or one that was not counted.
 //   schema, program, commit, renderer, version, context, cpu, cores, memory_bytes, system, date: to repeat it
 //   load          of the machine when it began, as processes wanting to run; more than `cores` makes times too long
-//   settings      samples_per_half, slow_ms, exposure_ev, sizes
+//   settings      samples_per_half, row_ms, exposure_ev, sizes
 //                 blurs {name: mean CoC DIAMETER, px at 640 px width}
 //   views[]       what the rows of one picture share
 //     key         "studio-640x480-paper-near"; rows name it
@@ -102,7 +102,7 @@ struct MeasuredWith {
     std::uint64_t memoryBytes = 0;
     double load = 0.0;
     int samplesPerHalf = 256;
-    double slowMs = 1000.0;  // from there on a frame is measured three times instead of nine
+    double rowMs = 6000.0;  // fewer than nine frames, not fewer than two, where nine take longer
     double exposureEv = 0.0;
     std::vector<std::string> sizes;
     std::map<std::string, double> blurs;

@@ -32,7 +32,7 @@ class MeasureTest : public ProgramTest {
     }
 };
 
-// Three blurs, near and far; pinhole and mipmap with msaa 0 and 4, the reference with 8 and 16 of 32 samples.
+// Three blurs, near and far; pinhole and mipmap with msaa 0 and 4, the reference with 4 and 16 of 32 samples.
 constexpr std::size_t kViews = 6, kRows = kViews * 6;
 
 TEST_F(MeasureTest, WritesWholeTablesAndAPage) {
@@ -57,7 +57,7 @@ TEST_F(MeasureTest, WritesWholeTablesAndAPage) {
         EXPECT_GT(view["reference"].at("ms"), 0.0);
     }
     std::set<std::string> keys;
-    double psnrOf8 = 0.0, psnrOf16 = 0.0;
+    double psnrOf4 = 0.0, psnrOf16 = 0.0;
     for (const Json& row : all["rows"]) {
         EXPECT_TRUE(keys.insert(row.at("view").get<std::string>() + row.at("technique").get<std::string>() +
                                 row.at("dials").dump())
@@ -65,7 +65,7 @@ TEST_F(MeasureTest, WritesWholeTablesAndAPage) {
         EXPECT_GT(row.at("ms_median"), 0.0);
         EXPECT_LE(row.at("ms_p10"), row["ms_median"]);
         EXPECT_GE(row.at("ms_p90"), row["ms_median"]);
-        EXPECT_GE(row.at("frames"), 3);
+        EXPECT_GE(row.at("frames"), 2);
         EXPECT_GE(row.at("ssim"), 0.0);
         EXPECT_LE(row["ssim"], 1.0);
         EXPECT_GE(row.at("flip"), 0.0);
@@ -75,13 +75,13 @@ TEST_F(MeasureTest, WritesWholeTablesAndAPage) {
         const auto& dials = row["dials"];
         const int samples = dials.value("samples", 1);
         EXPECT_EQ(row.at("triangles"), 4 * samples) << "two squares";
-        if (samples == 8) psnrOf8 += row.at("psnr_db").get<double>();
+        if (samples == 4) psnrOf4 += row.at("psnr_db").get<double>();
         if (samples == 16) psnrOf16 += row.at("psnr_db").get<double>();
         if (dials.value("msaa", -1) == 0) {
             EXPECT_EQ(row.at("skipped").at(0).at("name"), "resolve");
         }
     }
-    EXPECT_GT(psnrOf16, psnrOf8) << "more samples are closer to the reference";
+    EXPECT_GT(psnrOf16, psnrOf4) << "more samples are closer to the reference";
     EXPECT_EQ(linesOf(read("trade/trade.csv")).size(), kRows + 1);
 
     std::string governors;
