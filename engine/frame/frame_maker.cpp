@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "core/resources.hpp"
 #include "core/text.hpp"
 #include "focus/stereo_rig.hpp"
@@ -13,6 +15,8 @@
 namespace dioptre {
 
 namespace {
+
+constexpr double kMostRadiance = 65504.0;  // of RGBA16F, in which techniques draw
 
 /// A preset's name in config/lenses, else a file.
 std::filesystem::path lensFile(const std::string& nameOrFile) {
@@ -99,6 +103,15 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     for (int i = 0; i < (both ? 2 : 1); ++i)
         eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
     report_.plan = planText(settings.render);
+    if (const double brightest = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
+        brightest > kMostRadiance)
+        reportCut(fmt::format("a material emits {:.3g} at this exposure", brightest));
+}
+
+void FrameMaker::reportCut(const std::string& what) const {
+    if (std::exchange(cutReported_, true)) return;
+    logWarning(fmt::format("{}: light beyond {:.0f}, the most that half floats hold, is cut; lower --exposure", what,
+                           kMostRadiance));
 }
 
 GazeSample FrameMaker::gazeNow(const Input& input) const {
@@ -207,6 +220,12 @@ Composition FrameMaker::composition() const {
 Image FrameMaker::composed() const {
     Image image(composed_->width(), composed_->height());
     image.pixels = readTexture(*composed_, GL_RGB, 3);
+    for (const EyePicture& eye : eyes_) {
+        const std::vector<float> radiance = readTexture(*eye.picture, GL_RGB, 3);
+        const auto cut = std::count_if(radiance.begin(), radiance.end(),
+                                       [](float v) { return static_cast<double>(v) >= kMostRadiance; });
+        if (cut > 0) reportCut(fmt::format("{} values of the picture", cut));
+    }
     return image;
 }
 

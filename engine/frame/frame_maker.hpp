@@ -57,7 +57,7 @@ class FrameMaker {
     const FrameReport& make(const Input& input);
 
     /// The last frame: read back, linear; or shown in the window's framebuffer of that size.
-    Image composed() const;
+    Image composed() const;  // warns, once, of radiance that half floats could not hold
     void present(int width, int height);
 
     const ResolvedLens& lens() const { return report_.lens; }
@@ -72,6 +72,8 @@ class FrameMaker {
         const Texture* picture = nullptr;
     };
 
+    /// Warns, once.
+    void reportCut(const std::string& what) const;
     GazeSample gazeNow(const Input& input) const;
     View headView(const Input& input) const;
     void placeEyes(const View& head);
@@ -99,6 +101,7 @@ class FrameMaker {
     Compositor compositor_;
     const Texture* composed_ = nullptr;
     FrameReport report_;
+    mutable bool cutReported_ = false;
 };
 
 }  // namespace dioptre

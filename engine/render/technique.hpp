@@ -55,7 +55,11 @@ class Technique {
     virtual std::optional<double> fetchesPerPixel() const { return std::nullopt; }
 };
 
-/// One instance per eye: it keeps that eye's buffers. New techniques join the list in technique.cpp.
+/// All there are. New techniques join here and in the lists of technique.cpp.
+inline constexpr TechniqueChoice kTechniques[] = {TechniqueChoice::pinhole, TechniqueChoice::mipmap,
+                                                  TechniqueChoice::reference};
+
+/// One instance per eye: it keeps that eye's buffers.
 std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
 
 /// "mipmap"
@@ -71,7 +75,7 @@ struct TechniqueDials {
     void apply(EyeFrame& frame) const;
 };
 
-/// What is worth measuring of each technique, cheapest first within one. New techniques join the list in technique.cpp.
+/// What is worth measuring of each technique, cheapest first within one.
 std::vector<TechniqueDials> measuredDials();
 
 /// CoC transform of an eye's picture: pixel radii along x (pixels are square but for half-width displays).

@@ -1,5 +1,7 @@
 #include "scene/scene.hpp"
 
+#include <algorithm>
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -12,6 +14,15 @@ std::size_t Scene::triangleCount() const {
         for (const Primitive& primitive : meshes[static_cast<std::size_t>(instance.mesh)].primitives)
             count += primitive.indices.size() / 3;
     return count;
+}
+
+float Scene::brightestEmission() const {
+    float most = 0.0f;
+    for (const Material& material : materials) {
+        most = std::max({most, material.emissive.r, material.emissive.g, material.emissive.b});
+        if (material.unlit) most = std::max({most, material.baseColor.r, material.baseColor.g, material.baseColor.b});
+    }
+    return most;
 }
 
 std::size_t Scene::bytes() const {

@@ -128,6 +128,7 @@ struct Scene {
 
     std::size_t triangleCount() const;  // over instances
     std::size_t bytes() const;          // of vertices, indices and texels
+    float brightestEmission() const;    // the most that a channel of an emissive or unlit material may have
 
     /// Frees vertices, indices and texels once they are where they are drawn from; what is left tells of the rest.
     void releaseBulk();

@@ -19,6 +19,7 @@ struct Shot {
     int msaa = 0;
     float exposure = 1.0f;
     ShowStage show;
+    int samples = 16;
 };
 
 inline Image readPicture(const Texture& texture) {
@@ -29,7 +30,8 @@ inline Image readPicture(const Texture& texture) {
 
 inline Image draw(Technique& technique, const GpuScene& scene, const Shot& shot) {
     PassLog log;
-    return readPicture(technique.draw({scene, shot.view, shot.lens, shot.exposure, shot.msaa, shot.show, log}));
+    return readPicture(
+        technique.draw({scene, shot.view, shot.lens, shot.exposure, shot.msaa, shot.show, log, shot.samples}));
 }
 
 inline Image draw(TechniqueChoice choice, const GpuScene& scene, const Shot& shot) {
@@ -123,11 +125,5 @@ inline glm::dvec3 meanColor(const Image& image, int x0, int y0, int x1, int y1) 
         for (int x = x0; x < x1; ++x) sum += pixelAt(image, x, y);
     return sum / static_cast<double>((x1 - x0) * (y1 - y0));
 }
-
-inline const char* nameOf(TechniqueChoice choice) {
-    return choice == TechniqueChoice::pinhole ? "pinhole" : "mipmap";
-}
-
-inline constexpr TechniqueChoice kTechniques[] = {TechniqueChoice::pinhole, TechniqueChoice::mipmap};
 
 }  // namespace dioptre::test

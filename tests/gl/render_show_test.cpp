@@ -42,9 +42,9 @@ TEST_F(ShowGLTest, VergenceIsBrightestWhereNearest) {
     for (const TechniqueChoice technique : kTechniques)
         for (const int msaa : {0, 4}) {
             const Image picture = show(technique, {ShowChoice::vergence, 0}, msaa);
-            EXPECT_NEAR(pixelAt(picture, 30, 70).x, 2.5 / 3.5, 0.001) << nameOf(technique);
-            EXPECT_NEAR(pixelAt(picture, 96, 70).x, 0.5, 0.001) << nameOf(technique);
-            EXPECT_NEAR(pixelAt(picture, 160, 70).x, 0.2, 0.001) << nameOf(technique);
+            EXPECT_NEAR(pixelAt(picture, 30, 70).x, 2.5 / 3.5, 0.001) << techniqueName(technique);
+            EXPECT_NEAR(pixelAt(picture, 96, 70).x, 0.5, 0.001) << techniqueName(technique);
+            EXPECT_NEAR(pixelAt(picture, 160, 70).x, 0.2, 0.001) << techniqueName(technique);
         }
 }
 
@@ -53,19 +53,19 @@ TEST_F(ShowGLTest, CircleOfConfusionIsRedBeforeAndBlueBehindFocus) {
         const Image picture = show(technique, {ShowChoice::coc, 0});
         const glm::dvec3 before = pixelAt(picture, 30, 70), sharp = pixelAt(picture, 96, 70),
                          behind = pixelAt(picture, 160, 70);
-        EXPECT_NEAR(before.x, 9.0 / 16.0, 0.01) << nameOf(technique);  // 9 px, full at 16
-        EXPECT_NEAR(glm::length(sharp), 0.0, 0.01) << nameOf(technique);
-        EXPECT_NEAR(behind.z, 4.5 / 16.0, 0.01) << nameOf(technique);  // |1 - 0.25| / |1 - 2.5| D of 9 px
-        EXPECT_LT(behind.x, behind.z) << nameOf(technique);
+        EXPECT_NEAR(before.x, 9.0 / 16.0, 0.01) << techniqueName(technique);  // 9 px, full at 16
+        EXPECT_NEAR(glm::length(sharp), 0.0, 0.01) << techniqueName(technique);
+        EXPECT_NEAR(behind.z, 4.5 / 16.0, 0.01) << techniqueName(technique);  // |1 - 0.25| / |1 - 2.5| D of 9 px
+        EXPECT_LT(behind.x, behind.z) << techniqueName(technique);
     }
 }
 
 TEST_F(ShowGLTest, DegreeOfBlurHasNoSign) {
     for (const TechniqueChoice technique : kTechniques) {
         const Image picture = show(technique, {ShowChoice::dob, 0});
-        EXPECT_NEAR(pixelAt(picture, 30, 70).x, 9.0 / 16.0, 0.01) << nameOf(technique);
-        EXPECT_NEAR(pixelAt(picture, 96, 70).x, 0.0, 0.01) << nameOf(technique);
-        EXPECT_NEAR(pixelAt(picture, 160, 70).x, 4.5 / 16.0, 0.01) << nameOf(technique);
+        EXPECT_NEAR(pixelAt(picture, 30, 70).x, 9.0 / 16.0, 0.01) << techniqueName(technique);
+        EXPECT_NEAR(pixelAt(picture, 96, 70).x, 0.0, 0.01) << techniqueName(technique);
+        EXPECT_NEAR(pixelAt(picture, 160, 70).x, 4.5 / 16.0, 0.01) << techniqueName(technique);
     }
 }
 
@@ -117,7 +117,7 @@ TEST_F(ShowGLTest, NothingInViewIsBlack) {
             shot.lens = {Metres(0.002), Metres(0.01667), Dioptres(0.0)};
             shot.show.stage = stage;
             const Worst worst = worstDifference(draw(technique, empty, shot), constantImage(192, 144, glm::vec3(0.0f)));
-            EXPECT_EQ(worst.linear, 0.0) << nameOf(technique) << ", stage " << int(stage) << ", " << worst;
+            EXPECT_EQ(worst.linear, 0.0) << techniqueName(technique) << ", stage " << int(stage) << ", " << worst;
         }
 }
 
