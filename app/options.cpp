@@ -266,6 +266,11 @@ Command parseCommandLine(int argc, const char* const* argv) {
     CLI::App* compare = app.add_subcommand("compare", "tell how far two pictures are apart: PSNR, SSIM and FLIP");
     compare->add_option("A", result.compareA, "reference picture (.png, .exr or .pfm)")->type_name("FILE");
     compare->add_option("B", result.compareB, "picture of the same size that is compared with it")->type_name("FILE");
+    compare
+        ->add_option("--out", result.out,
+                     "map of FLIP's error: .png in colours from black, 0, to yellow, 1; .exr and .pfm hold the values")
+        ->type_name("FILE")
+        ->take_last();
     CLI::App* exporter =
         app.add_subcommand("export", "write a scene that comes with the program as a binary glTF file");
     exporter->add_option("NAME", result.scene, "which one: " + builtinList())->type_name("");
@@ -315,6 +320,7 @@ Command parseCommandLine(int argc, const char* const* argv) {
     }
     if (result.which == Command::Which::compare && result.compareB.empty())
         throw InputError("compare: two pictures are needed, A and B");
+    if (result.which == Command::Which::compare && !result.out.empty()) requireImageName(result.out);
     if (result.which == Command::Which::exportScene) checkExport(result);
     if (result.which == Command::Which::measure) checkMeasure(result, sizes);
     return result;

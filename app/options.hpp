@@ -27,7 +27,7 @@ struct Command {
                                        // measure: folder
     int frames = 1;                    // render: > 1 draws a sequence into the folder `out`
     double fps = 30.0;                 // of the sequence, frames per second
-    std::string compareA, compareB;    // compare: two picture files
+    std::string compareA, compareB;    // compare: two picture files; their error map goes to `out`
     MeasureOptions measure;
     std::filesystem::path log;     // render, view: CSV of what was shown; empty: none
     std::filesystem::path config;  // already read into settings

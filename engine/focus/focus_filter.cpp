@@ -20,7 +20,7 @@ struct NamedDynamics {
 // Saccade threshold, deg/s: a tracker that jitters by 0.5 deg jumps at most 1.41 deg in the 30 ms over which speed is
 // taken, 47 deg/s; a saccade of 5 deg peaks at about 200 deg/s. Smaller saccades pass as an ordinary change of depth.
 constexpr double kSaccade = 80.0;
-// Dead zone: optics.md 8. Less than a quarter of a dioptre is hardly noticed (Campbell 1957: 0.3 D with a 3 mm pupil).
+// Dead zone: less than a quarter of a dioptre is hardly noticed (Campbell 1957: 0.3 D with a 3 mm pupil).
 constexpr Dioptres kDeadZone{0.25};
 
 constexpr std::array<NamedDynamics, 3> kPresets = {{

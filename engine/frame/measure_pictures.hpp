@@ -9,10 +9,6 @@
 
 namespace dioptre {
 
-/// FLIP's colours for an error of 0..1, black over purple and orange to light yellow: even steps look even, in grey,
-/// too.
-Image errorColours(const Image& errors);
-
 /// Box-filtered to a width, in linear light; never larger than it was.
 Image smaller(const Image& image, int width);
 

@@ -1,4 +1,4 @@
-// How far two pictures are apart: PSNR, SSIM (Wang et al. 2004) and FLIP (Andersson et al. 2020), optics.md section 9.
+// How far two pictures are apart: PSNR, SSIM (Wang et al. 2004) and FLIP (Andersson et al. 2020).
 // All three look at what a display shows: linear values are clamped to 0..1 and encoded to sRGB first.
 #pragma once
 
@@ -33,5 +33,9 @@ double flip(const Image& a, const Image& b, double pixelsPerDegree = kFlipPixels
 
 /// Error per pixel, 0..1, one channel.
 Image flipMap(const Image& reference, const Image& test, double pixelsPerDegree = kFlipPixelsPerDegree);
+
+/// FLIP's colours for an error of 0..1, black over purple and orange to light yellow: even steps look even, in grey,
+/// too.
+Image errorColours(const Image& errors);
 
 }  // namespace dioptre

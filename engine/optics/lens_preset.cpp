@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLargestDiameter = 1.0;   // m; optics.md speaks of 0.2 m, beyond 1 m somebody mistook a unit
+constexpr double kLargestDiameter = 1.0;   // m; 0.2 m is a large lens, beyond 1 m somebody mistook a unit
 constexpr double kBrightest = 1e8;         // cd/m2; the sun's disc has 1.6e9, nobody adapts to it
 constexpr double kAges[2] = {3.0, 120.0};  // years; below 3 accommodation was not measured
 constexpr double kClosestFocus = 1.001;    // focal lengths; keeps the image within 1001 of them behind the lens

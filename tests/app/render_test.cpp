@@ -1,4 +1,8 @@
 // dioptre render and compare: what ends up in the files.
+#include <fmt/format.h>
+
+#include <numeric>
+
 #include "core/error.hpp"
 #include "core/image.hpp"
 #include "metrics/metrics.hpp"
@@ -194,6 +198,13 @@ TEST_F(RenderTest, ComparesPictures) {
     const Outcome different = run({"compare", "left.png", "right.pfm"});
     EXPECT_EQ(different.status, 0);
     EXPECT_THAT(different.out, testing::MatchesRegex("PSNR [0-9.]+ dB  SSIM 0\\.[0-9]+  FLIP 0\\.[0-9]+\n"));
+    EXPECT_EQ(run({"compare", "left.png", "right.pfm", "--out", "map.pfm"}).status, 0);
+    EXPECT_EQ(run({"compare", "left.png", "right.pfm", "--out", "map.png"}).status, 0);
+    const Image errors = readImage(folder / "map.pfm");
+    const double mean = std::accumulate(errors.pixels.begin(), errors.pixels.end(), 0.0) / static_cast<double>(errors.pixels.size());
+    EXPECT_THAT(different.out, HasSubstr(fmt::format("FLIP {:.4f}", mean).substr(0, 9)));
+    EXPECT_EQ(readImage(folder / "map.png").width, 40);
+    expectRefused(run({"compare", "left.png", "right.pfm", "--out", "map.jpg"}), {"map.jpg"});
     expectRefused(run({"compare", "left.png", "both.png"}), {"40", "80"});
     expectRefused(run({"compare", "left.png"}), {"two pictures"});
     expectRefused(run({"compare", "left.png", "absent.png"}), {"absent.png"});

@@ -39,7 +39,7 @@ inline Image draw(TechniqueChoice choice, const GpuScene& scene, const Shot& sho
 }
 
 /// The view through one point of the lens: moved by E v, the plane in focus kept where it is in the picture
-/// (Haeberli, Akeley 1990; optics.md section 2), and the picture moved by part of a pixel.
+/// (Haeberli, Akeley 1990), and the picture moved by part of a pixel.
 inline View throughLens(const View& view, const Lens& lens, glm::dvec2 v, glm::dvec2 pixelShift) {
     View moved = view;
     const glm::dvec2 offset = v * lens.apertureRadius.value;

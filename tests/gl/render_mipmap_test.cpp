@@ -82,7 +82,7 @@ Shot referenceShot(double foregroundRadius, int msaa) {
     return shot;
 }
 
-// Floors: a float64 trial of the published method (design.md) left 12 %, 21 % and 40 % of the pinhole's 1 - SSIM on
+// Floors: a float64 trial of the published method left 12 %, 21 % and 40 % of the pinhole's 1 - SSIM on
 // scenes of these kinds; here, on pictures a third as wide and with a reference of 64 samples, 29 %, 26 % and 42 % are
 // allowed.
 TEST_F(MipmapGLTest, ForegroundIsCloserThanPinhole) {

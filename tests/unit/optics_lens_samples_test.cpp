@@ -39,7 +39,7 @@ TEST(LensSamplesTest, MapsKeepAreasAndStayInside) {
     }
 }
 
-// optics.md: a point in focus does not move, any other by its circle of confusion times the lens point, p - c(D) v.
+// A point in focus does not move, any other by its circle of confusion times the lens point, p - c(D) v.
 TEST(LensSamplesTest, ProjectionThroughALensPointShiftsByTheCircleOfConfusion) {
     View view;
     view.width = 640;
