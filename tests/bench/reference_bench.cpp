@@ -1,8 +1,9 @@
 // The reference technique: what N samples cost against N × (1.1 pinhole frames + 1 copy pass), and how fast its error
 // falls with N.
 //
-//   bench_reference cost [SCENE.glb ...]     default: the studio, and 2,000 small objects; one interleaved run each
-//   bench_reference error [SCENE.glb]        RMSE (linear) of N = 16 ... 1024 against the next 8192 samples
+//   bench_reference cost [SCENE.glb ...]     default: studio, toys, 2,000 small objects; one interleaved run each
+//   bench_reference error [SCENE.glb]        RMSE of N = 16 ... 1024 against 8192 other samples, 640x480, pupil 4 mm: of
+//                                            linear radiance, and of what a display shows of it (cut at 1)
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "frame/frame_maker.hpp"
 #include "gl/context.hpp"
 #include "render/technique.hpp"
+#include "scene/builtin.hpp"
 #include "scene/gltf_loader.hpp"
 
 namespace dioptre {
@@ -98,10 +100,23 @@ void cost(const std::string& name, const Scene& scene) {
     std::fflush(stdout);
 }
 
+/// Least squares: how the logarithm of the error falls with that of N.
+class Slope {
+  public:
+    void add(double n, double error) {
+        const double x = std::log(n), y = std::log(error);
+        sx_ += x, sy_ += y, sxx_ += x * x, sxy_ += x * y, count_ += 1.0;
+    }
+    double value() const { return (count_ * sxy_ - sx_ * sy_) / (count_ * sxx_ - sx_ * sx_); }
+
+  private:
+    double sx_ = 0.0, sy_ = 0.0, sxx_ = 0.0, sxy_ = 0.0, count_ = 0.0;
+};
+
 void error(const Scene& scene) {
-    const View view = viewOf(scene, {160, 120});
+    const View view = viewOf(scene, {640, 480});
     const GpuScene gpu(scene);
-    const Lens lens{Metres(0.01), Metres(0.017), Dioptres(1.0)};
+    const Lens lens{Metres(0.002), Metres(0.017), Dioptres(1.0)};
     PassLog log;
     EyeFrame frame{gpu, view, lens, 1.0f, 0, {}, log};
     const auto draw = [&](int first, int samples) {
@@ -110,24 +125,26 @@ void error(const Scene& scene) {
         return readTexture(makeTechnique(TechniqueChoice::reference)->draw(frame), GL_RGB, 3);
     };
     const std::vector<float> truth = draw(2048, 8192);
-    std::fputs("| N | RMSE |\n|---|---|\n", stdout);
-    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, count = 0.0;
+    std::fputs("| N | RMSE of radiance | RMSE cut at 1 |\n|---|---|---|\n", stdout);
+    Slope ofRadiance, ofShown;
     for (int n = 16; n <= 1024; n *= 2) {
         const std::vector<float> picture = draw(0, n);
-        double sum = 0.0;
+        double radiance = 0.0, shown = 0.0;
         for (std::size_t i = 0; i < truth.size(); ++i) {
-            // What a display shows: a lamp of 1000 would be all that counts.
-            const double d =
-                std::min(1.0, static_cast<double>(picture[i])) - std::min(1.0, static_cast<double>(truth[i]));
-            sum += d * d;
+            const auto a = static_cast<double>(picture[i]), b = static_cast<double>(truth[i]);
+            radiance += (a - b) * (a - b);
+            shown += std::pow(std::min(1.0, a) - std::min(1.0, b), 2.0);
         }
-        const double rmse = std::sqrt(sum / static_cast<double>(truth.size()));
-        std::fputs(fmt::format("| {} | {:.6f} |\n", n, rmse).c_str(), stdout);
-        const double x = std::log(n), y = std::log(rmse);
-        sx += x, sy += y, sxx += x * x, sxy += x * y, count += 1.0;
+        radiance = std::sqrt(radiance / static_cast<double>(truth.size()));
+        shown = std::sqrt(shown / static_cast<double>(truth.size()));
+        ofRadiance.add(n, radiance);
+        ofShown.add(n, shown);
+        std::fputs(fmt::format("| {} | {:.5f} | {:.5f} |\n", n, radiance, shown).c_str(), stdout);
+        std::fflush(stdout);
     }
-    std::fputs(fmt::format("fitted: RMSE ~ N^{:.2f}\n", (count * sxy - sx * sy) / (count * sxx - sx * sx)).c_str(),
-               stdout);
+    std::fputs(
+        fmt::format("fitted: radiance N^{:.2f}, cut at 1 N^{:.2f}\n", ofRadiance.value(), ofShown.value()).c_str(),
+        stdout);
 }
 
 void run(int argc, char** argv) {
@@ -144,6 +161,7 @@ void run(int argc, char** argv) {
         stdout);
     if (argc <= 2) cost("studio", loadGltf(studio));
     if (argc <= 2) cost("2,000 objects", manyObjects());
+    if (argc <= 2) cost("builtin:toys", loadBuiltin("toys", cacheFolder()));
     for (int i = 2; i < argc; ++i) cost(argv[i], loadGltf(argv[i]));
 }
 
