@@ -58,6 +58,29 @@ Json parseJson(std::span<const std::uint8_t> text, const Context& context) {
     }
 }
 
+// People drag in what they have: what a file is, if it is no scene but known by its first bytes.
+std::string_view otherFormat(std::string_view start) {
+    struct Format {
+        std::string_view magic, name;
+    };
+    constexpr Format kFormats[] = {{"\x89PNG\r\n", "a PNG picture"},
+                                   {"\xFF\xD8\xFF", "a JPEG picture"},
+                                   {"v/1\x01", "an OpenEXR picture"},
+                                   {"PF\n", "a PFM picture"},
+                                   {"GIF8", "a GIF picture"},
+                                   {"RIFF", "a WebP picture or another RIFF file"},
+                                   {"\xABKTX", "a KTX texture"},
+                                   {"Kaydara FBX", "an FBX model"},
+                                   {"BLENDER", "a Blender file"},
+                                   {"ply\n", "a PLY model"},
+                                   {"%PDF", "a PDF file"},
+                                   {"PK\x03\x04", "a ZIP archive"},
+                                   {"\x1F\x8B", "a gzip archive"}};
+    for (const Format& format : kFormats)
+        if (start.starts_with(format.magic)) return format.name;
+    return {};
+}
+
 void takeGlbApart(Document& document, Context& context) {
     const Bytes& file = document.file;
     if (file.size() < kGlbHeaderBytes + kChunkHeaderBytes)
@@ -96,34 +119,38 @@ void takeGlbApart(Document& document, Context& context) {
 Bytes readFile(const fs::path& path, Context& context, std::string_view where) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    const std::string shown = printable(path.string());
-    if (status.type() == fs::file_type::not_found) context.fail(where, fmt::format("no such file ({})", shown));
-    if (error) context.fail(where, fmt::format("cannot be read: {} ({})", error.message(), shown));
-    if (status.type() == fs::file_type::directory) context.fail(where, fmt::format("is a directory ({})", shown));
-    if (status.type() != fs::file_type::regular) context.fail(where, fmt::format("is not a plain file ({})", shown));
+    // The path, where the message does not begin with it.
+    const bool named = where.empty() && !path.has_parent_path();
+    const std::string shown = named ? "" : fmt::format(" ({})", printable(path.string()));
+    if (status.type() == fs::file_type::not_found) context.fail(where, "no such file" + shown);
+    if (error) context.fail(where, fmt::format("cannot be read: {}{}", error.message(), shown));
+    if (status.type() == fs::file_type::directory) context.fail(where, "is a directory" + shown);
+    if (status.type() != fs::file_type::regular) context.fail(where, "is not a plain file" + shown);
     const std::uintmax_t size = fs::file_size(path, error);
     std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) context.fail(where, fmt::format("cannot be opened ({})", shown));
-    if (size == 0) context.fail(where, fmt::format("is empty ({})", shown));
+    if (error || !stream) context.fail(where, "cannot be opened" + shown);
+    if (size == 0) context.fail(where, "is empty" + shown);
     if (size > context.limits.maxFileBytes)
         context.fail(where, fmt::format("{} bytes, the limit is {}", size, context.limits.maxFileBytes));
     context.charge(size, where);
     Bytes bytes(static_cast<std::size_t>(size));
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     if (static_cast<std::uintmax_t>(stream.gcount()) != size)
-        context.fail(where, fmt::format("only {} of {} bytes could be read ({})", stream.gcount(), size, shown));
+        context.fail(where, fmt::format("only {} of {} bytes could be read{}", stream.gcount(), size, shown));
     return bytes;
 }
 
 Document openDocument(const fs::path& path, Context& context) {
     Document document;
     document.file = readFile(path, context, "");
-    const std::string_view start(reinterpret_cast<const char*>(document.file.data()),
-                                 std::min(document.file.size(), kGlbMagic.size()));
+    const std::string_view all(reinterpret_cast<const char*>(document.file.data()), document.file.size());
+    const std::string_view start = all.substr(0, kGlbMagic.size());
     if (start == kGlbMagic) {
         takeGlbApart(document, context);
         return document;
     }
+    if (const auto other = otherFormat(all); !other.empty())
+        context.fail("", fmt::format("is {}, not a glTF scene", other));
     if (path.extension() == ".glb")
         context.fail("GLB header", fmt::format("starts with \"{}\", must start with \"glTF\"", printable(start)));
     document.json = parseJson(document.file, context);

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 
 namespace dioptre::gltf {
 namespace {
@@ -26,22 +28,80 @@ bool startsWith(std::span<const std::uint8_t> bytes, std::string_view magic, std
     return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
 
-// ISO 15948, 11.2.2: the header chunk comes first. Compressed data longer than the picture would only serve to fill
-// memory: the decoder unpacks all of it.
-std::optional<ImageSize> pngSize(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kSignatureBytes = 8, kChunkFrameBytes = 12, kHeaderEnd = 33;
-    if (bytes.size() < kHeaderEnd || !startsWith(bytes, "IHDR", 12)) return std::nullopt;
-    const ImageSize size{bigEndian(bytes, 16, 4), bigEndian(bytes, 20, 4)};
-    std::uint64_t compressed = 0;
-    for (std::size_t at = kSignatureBytes; bytes.size() - at >= kChunkFrameBytes;) {
+// ISO 15948, 5.3: length, type, data, checksum; up to the end chunk or the first that is cut.
+template <class Visit>  // (type and data)
+void forEachPngChunk(std::span<const std::uint8_t> bytes, const Visit& visit) {
+    constexpr std::size_t kSignatureBytes = 8, kFrameBytes = 12;
+    for (std::size_t at = kSignatureBytes; bytes.size() - at >= kFrameBytes;) {
         const std::size_t length = bigEndian(bytes, at, 4);
-        if (length > bytes.size() - at - kChunkFrameBytes) break;
-        if (startsWith(bytes, "IDAT", at + 4)) compressed += length;
-        at += length + kChunkFrameBytes;
+        if (length > bytes.size() - at - kFrameBytes || startsWith(bytes, "IEND", at + 4)) return;
+        visit(bytes.subspan(at + 4, length + 4));
+        at += length + kFrameBytes;
     }
-    constexpr std::uint64_t kSlack = 1 << 16, kLargestTexel = 8;  // 16-bit RGBA
-    if (compressed > size.width * size.height * kLargestTexel + size.height + kSlack) return std::nullopt;
-    return size;
+}
+
+// The header chunk comes first (11.2.2).
+std::optional<ImageSize> pngSize(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kHeaderEnd = 33;
+    if (bytes.size() < kHeaderEnd || !startsWith(bytes, "IHDR", 12)) return std::nullopt;
+    return ImageSize{bigEndian(bytes, 16, 4), bigEndian(bytes, 20, 4)};
+}
+
+// What its data unpacks to: rows of samples with a filter byte each (9.2), of each of the seven pictures of an
+// interlaced one (8.2).
+std::uint64_t pngUnpackedBytes(std::span<const std::uint8_t> bytes, const ImageSize& size) {
+    const std::uint64_t depth = bytes[24], type = bytes[25];
+    const std::uint64_t texelBits = depth * (type == 2 ? 3 : type == 4 ? 2 : type == 6 ? 4 : 1);
+    const auto picture = [&](std::uint64_t left, std::uint64_t top, std::uint64_t stepX, std::uint64_t stepY) {
+        const std::uint64_t width = (size.width + stepX - 1 - left) / stepX;
+        const std::uint64_t height = (size.height + stepY - 1 - top) / stepY;
+        return width == 0 ? 0 : height * (1 + (width * texelBits + 7) / 8);
+    };
+    if (bytes[28] == 0) return picture(0, 0, 1, 1);
+    return picture(0, 0, 8, 8) + picture(4, 0, 8, 8) + picture(0, 4, 4, 8) + picture(2, 0, 4, 4) + picture(0, 2, 2, 4) +
+           picture(1, 0, 2, 2) + picture(0, 1, 1, 2);
+}
+
+std::uint64_t pngPackedBytes(std::span<const std::uint8_t> bytes) {
+    std::uint64_t sum = 0;
+    forEachPngChunk(bytes, [&](std::span<const std::uint8_t> chunk) {
+        if (startsWith(chunk, "IDAT")) sum += chunk.size() - 4;
+    });
+    return sum;
+}
+
+constexpr std::uint64_t kDeflateLimit = 1032;  // to 1 at most: 258 bytes from 2 bits
+
+// The decoder unpacks all there is, however small the picture: a file of a few MB would fill memory. Unpacked once
+// before, thrown away, where it could come to much.
+bool pngUnpacksToMore(std::span<const std::uint8_t> bytes, std::uint64_t expected) {
+    constexpr std::uint64_t kHarmless = 64 << 20, kSlack = 1 << 16;
+    if (pngPackedBytes(bytes) * kDeflateLimit <= kHarmless) return false;
+    z_stream stream{};
+    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
+    std::vector<std::uint8_t> out(1 << 16);
+    std::size_t header = 2;  // of zlib, before the deflated data
+    std::uint64_t unpacked = 0;
+    int state = Z_OK;
+    forEachPngChunk(bytes, [&](std::span<const std::uint8_t> chunk) {
+        if (!startsWith(chunk, "IDAT")) return;
+        std::span<const std::uint8_t> data = chunk.subspan(4);
+        const std::size_t skipped = std::min(header, data.size());
+        header -= skipped;
+        data = data.subspan(skipped);
+        stream.next_in = const_cast<Bytef*>(data.data());
+        stream.avail_in = static_cast<uInt>(data.size());
+        while (state == Z_OK && unpacked <= expected + kSlack) {
+            stream.next_out = out.data();
+            stream.avail_out = static_cast<uInt>(out.size());
+            state = inflate(&stream, Z_NO_FLUSH);
+            unpacked += out.size() - stream.avail_out;
+        }
+        if (state == Z_BUF_ERROR) state = Z_OK;  // the chunk is used up
+    });
+    inflateEnd(&stream);
+    // What one unpacker stumbles on, the other may not: damaged.
+    return unpacked > expected + kSlack || (state != Z_OK && state != Z_STREAM_END);
 }
 
 // ITU T.81, B.2.2: the frame header SOFn; n = 4, 8, 12 are other markers.
@@ -60,9 +120,20 @@ std::optional<ImageSize> jpegSize(std::span<const std::uint8_t> bytes) {
     return std::nullopt;
 }
 
+bool isPng(std::span<const std::uint8_t> bytes) {
+    return startsWith(bytes, "\x89PNG\r\n\x1a\n");
+}
+
+// Whether that little data can be a picture that large: one that is not must not be allocated first.
+bool holds(std::span<const std::uint8_t> bytes, const ImageSize& size) {
+    if (isPng(bytes)) return pngUnpackedBytes(bytes, size) <= (pngPackedBytes(bytes) + 1) * kDeflateLimit;
+    constexpr std::uint64_t kMostTexelsAByte = 8 * 64;  // ITU T.81, F.1.2.1: a block of 8 x 8 takes at least a bit
+    return size.width * size.height <= bytes.size() * kMostTexelsAByte;
+}
+
 ImageSize checkedSize(std::span<const std::uint8_t> bytes, const Element& image) {
     std::optional<ImageSize> size;
-    if (startsWith(bytes, "\x89PNG\r\n\x1a\n"))
+    if (isPng(bytes))
         size = pngSize(bytes);
     else if (startsWith(bytes, "\xFF\xD8\xFF"))
         size = jpegSize(bytes);
@@ -74,6 +145,9 @@ ImageSize checkedSize(std::span<const std::uint8_t> bytes, const Element& image)
     const auto limit = static_cast<std::uint64_t>(image.context().limits.maxImageSide);
     if (size->width > limit || size->height > limit)
         image.fail(fmt::format("is {} x {} texels, the limit is {} a side", size->width, size->height, limit));
+    if (!holds(bytes, *size))
+        image.fail(fmt::format("cannot be decoded: its {} bytes cannot hold {} x {} texels", bytes.size(), size->width,
+                               size->height));
     return *size;
 }
 
@@ -151,6 +225,14 @@ std::vector<TextureImage> ImageDecoder::finish() {
 
 void ImageDecoder::decode(Job& job) {
     try {
+        if (isPng(job.bytes)) {
+            const ImageSize size{job.width, job.needed / 4 / job.width};
+            if (pngUnpacksToMore(job.bytes, pngUnpackedBytes(job.bytes, size))) {
+                job.problem = fmt::format("cannot be decoded: damaged data, or more than {} x {} texels", size.width,
+                                          size.height);
+                return;
+            }
+        }
         tinygltf::Image decoded;
         std::string error, warning;
         const bool done = tinygltf::LoadImageData(&decoded, 0, &error, &warning, 0, 0, job.bytes.data(),

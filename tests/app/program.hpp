@@ -23,6 +23,8 @@ namespace dioptre::test {
 struct Outcome {
     int status = -1;  // exit code; 128 + signal where one ended it
     std::string out, err;
+    double seconds = 0.0;  // of the processor
+    long kilobytes = 0;    // of memory, at most
 };
 
 inline std::string textOf(const std::filesystem::path& file) {
@@ -68,8 +70,12 @@ class ProgramTest : public testing::Test {
         const pid_t child = ::fork();
         if (child == 0) exec(program, arguments, out, err);
         int status = 0;
-        if (child < 0 || ::waitpid(child, &status, 0) != child) throw std::runtime_error("no child process");
+        rusage usage{};
+        if (child < 0 || ::wait4(child, &status, 0, &usage) != child) throw std::runtime_error("no child process");
         Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), textOf(out), textOf(err)};
+        for (const timeval& t : {usage.ru_utime, usage.ru_stime})
+            outcome.seconds += static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+        outcome.kilobytes = usage.ru_maxrss;
         std::filesystem::remove(out);
         std::filesystem::remove(err);
         return outcome;

@@ -1,5 +1,6 @@
 // Files around the JSON: missing and odd ones, GLB containers, URIs that must not leave the folder, limits.
 #include <sys/stat.h>
+#include <zlib.h>
 
 #include "scene_gltf_maker.hpp"
 
@@ -21,6 +22,8 @@ TEST(GltfFileTest, OddFilesAreRefused) {
     expectSays(refusal(folder.path() / "folder.gltf"), "folder.gltf: is a directory");
     ASSERT_EQ(mkfifo((folder.path() / "pipe.gltf").c_str(), 0600), 0);
     expectSays(refusal(folder.path() / "pipe.gltf"), "pipe.gltf: is not a plain file");
+    expectSays(refusal(folder.write("picture.glb", "\x89PNG\r\n\x1a\n....")),
+               "picture.glb: is a PNG picture, not a glTF scene");
     LoadLimits limits;
     limits.maxFileBytes = 10;
     expectSays(refusal(folder.write("large.gltf", "{\"asset\":{}}"), limits), "12 bytes, the limit is 10");
@@ -154,10 +157,12 @@ TEST_F(GltfUriTest, DataMayBePercentEncoded) {
 }
 
 TEST(GltfLimitTest, ImagesAreBoundedBeforeDecoding) {
-    // A header that promises 2^31 - 1 by 1 texels, then one of 16384 a side.
-    std::string png = "\x89PNG\r\n\x1a\n" + std::string("\0\0\0\rIHDR", 8);
-    const auto withSize = [&](const std::string& size) {
-        return dataUri(png + size + std::string(40, '\x08'), "image/png");
+    // A header that promises 2^31 - 1 by 1 texels, then one of 16384 a side; 1 bit each, behind 40 kB of nothing.
+    const auto withSize = [&](const std::string& size, std::size_t dataBytes = 40'000) {
+        const std::string header = std::string("\0\0\0\rIHDR", 8) + size + std::string("\1\0\0\0\0\0\0\0\0", 9);
+        const std::string length{static_cast<char>(dataBytes >> 24), static_cast<char>(dataBytes >> 16),
+                                 static_cast<char>(dataBytes >> 8), static_cast<char>(dataBytes)};
+        return dataUri("\x89PNG\r\n\x1a\n" + header + length + "IDAT" + std::string(dataBytes + 4, '\0'), "image/png");
     };
     Json gltf = texturedGltf();
     gltf["images"][0]["uri"] = withSize(std::string("\x7F\xFF\xFF\xFF\0\0\0\1", 8));
@@ -167,8 +172,50 @@ TEST(GltfLimitTest, ImagesAreBoundedBeforeDecoding) {
     limits.maxImageBytes = 1000;
     expectSays(refusal(gltf, limits), "images[0]: decodes to 1073741824 bytes, 0 of at most 1000 bytes");
     limits = {};
-    limits.maxTotalBytes = 100'000;
+    limits.maxTotalBytes = 1'000'000;
     expectSays(refusal(gltf, limits), "images[0]: needs 4294967296 bytes more");
+}
+
+TEST(GltfLimitTest, DataThatCannotFillAnImageIsRefusedBeforeDecoding) {
+    Json gltf = texturedGltf();
+    std::string png = decodedBase64(std::string(kPng).substr(std::string(kPng).find(',') + 1));
+    png[18] = png[22] = '\x20';  // 8194 x 8193 texels from 17 bytes
+    gltf["images"][0]["uri"] = dataUri(png);
+    expectSays(refusal(gltf), "images[0]: cannot be decoded: its 74 bytes cannot hold 8194 x 8193 texels");
+    // Baseline frame header of 8192 x 8192, a scan and no more
+    const std::string jpeg("\xFF\xD8\xFF\xC0\0\x0B\x08\x20\0\x20\0\1\1\x11\0\xFF\xDA\0\x08\1\1\0\0\x3F\0", 25);
+    gltf["images"][0]["uri"] = dataUri(jpeg);
+    expectSays(refusal(gltf), "images[0]: cannot be decoded: its 25 bytes cannot hold 8192 x 8192 texels");
+}
+
+TEST(GltfLimitTest, DataThatUnpacksToMoreThanTheImageIsRefused) {
+    // 256 x 256 texels of grey; the data goes on with 20 MB of zeros, in 0.1 MB.
+    const auto withData = [](std::size_t bytes) {
+        std::string packed(compressBound(static_cast<uLong>(bytes)), '\0');
+        uLongf length = static_cast<uLongf>(packed.size());
+        const std::vector<Bytef> zeros(bytes);
+        compress2(reinterpret_cast<Bytef*>(packed.data()), &length, zeros.data(), static_cast<uLong>(bytes), 1);
+        packed.resize(length);
+        std::string png = "\x89PNG\r\n\x1a\n";
+        const auto addWord = [&](std::size_t word) {
+            for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(word >> shift);
+        };
+        const auto chunk = [&](const std::string& type, const std::string& data) {
+            const std::string body = type + data;
+            addWord(data.size());
+            png += body;
+            addWord(crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size())));
+        };
+        chunk("IHDR", std::string("\0\0\1\0\0\0\1\0\x08\0\0\0\0", 13));
+        chunk("IDAT", packed);
+        chunk("IEND", "");
+        Json gltf = texturedGltf();
+        gltf["images"][0]["uri"] = dataUri(png);
+        return gltf;
+    };
+    EXPECT_EQ(refusal(withData(256 * 257)), "");
+    expectSays(refusal(withData(std::size_t{20} << 20)),
+               "images[0]: cannot be decoded: damaged data, or more than 256");
 }
 
 TEST(GltfLimitTest, MemoryIsBoundedBeforeAllocation) {

@@ -20,14 +20,32 @@ namespace dioptre::test {
 
 using Json = nlohmann::json;
 
+inline constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 inline std::string base64(const std::string& bytes) {
-    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t bits = 0;
         for (std::size_t j = 0; j < 3; ++j)
             bits = bits << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-        for (std::size_t j = 0; j < 4; ++j) out += i + j < bytes.size() + 1 ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
+        for (std::size_t j = 0; j < 4; ++j)
+            out += i + j < bytes.size() + 1 ? kBase64Digits[bits >> (18 - 6 * j) & 63] : '=';
+    }
+    return out;
+}
+
+/// Of what base64() gives.
+inline std::string decodedBase64(const std::string& text) {
+    std::string out;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        const std::size_t digit = kBase64Digits.find(c);
+        if (digit == std::string_view::npos) break;  // the padding
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        if ((count += 6) < 8) continue;
+        count -= 8;
+        out += static_cast<char>(bits >> count & 0xFF);
     }
     return out;
 }
