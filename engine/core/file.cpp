@@ -6,9 +6,11 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace dioptre {
 
@@ -54,14 +56,35 @@ int writeAll(Descriptor& file, std::string_view bytes) {
     return file.close() == 0 ? 0 : errno;
 }
 
-// The file that a chain of links names, which need not exist: a write replaces it and not the link.
-fs::path followLinks(fs::path path) {
+struct Target {
+    fs::path path;
+    int descriptor = -1;  // that /dev/stdout or /dev/fd/3 stands for: who opened it goes on writing there
+};
+
+// What a chain of links names, which need not exist: a write replaces it and not the link.
+Target followLinks(fs::path path) {
     constexpr int kLongestChain = 40;  // as Linux
     std::error_code error;
-    for (int i = 0; i < kLongestChain && fs::is_symlink(fs::symlink_status(path, error)); ++i)
+    const fs::path descriptors = fs::canonical("/proc/self/fd", error);
+    for (int i = 0; i < kLongestChain && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+        if (!descriptors.empty() && fs::canonical(path.parent_path(), error) == descriptors)
+            return {path, parseInteger(path.filename().string()).value_or(-1)};
         path = path.parent_path() / fs::read_symlink(path, error);
-    return path;
+    }
+    return {path};
 }
+
+// The temporary file being written, for a signal handler.
+std::atomic<const char*> unfinished{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+class Unfinished {
+  public:
+    explicit Unfinished(const fs::path& path) { unfinished = path.c_str(); }
+    ~Unfinished() { unfinished = nullptr; }
+    Unfinished(const Unfinished&) = delete;
+    Unfinished& operator=(const Unfinished&) = delete;
+};
 
 [[noreturn]] void failWrite(const fs::path& path, int error) {
     throw RunError(path.string() + ": cannot be written: " + reason(error));
@@ -81,6 +104,21 @@ void requireWritableName(const fs::path& path) {
     if (!error && !fs::is_directory(status)) throw InputError(path.string() + ": " + folder.string() + " is no folder");
 }
 
+void makeFolder(const fs::path& path, std::string_view option) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    std::error_code unseen;
+    if (fs::is_directory(path, unseen)) return;
+    const std::string where = std::string(option) + ": " + path.string();
+    if (fs::exists(path, unseen) || error == std::errc::not_a_directory)
+        throw InputError(where + " is no folder, and none can be made there: a file is in the way");
+    throw RunError(where + " cannot be made a folder: " + error.message());
+}
+
+void removeUnfinishedFile() {
+    if (const char* path = unfinished) ::unlink(path);
+}
+
 void writeFileAtomically(const fs::path& path, std::string_view bytes) {
     requireWritableName(path);
     std::error_code error;
@@ -91,11 +129,19 @@ void writeFileAtomically(const fs::path& path, std::string_view bytes) {
         if (const int failed = writeAll(device, bytes)) failWrite(path, failed);
         return;
     }
-    const fs::path target = followLinks(path);
+    const auto [target, descriptor] = followLinks(path);
+    if (descriptor >= 0) {
+        std::fflush(nullptr);  // what was printed there comes before
+        Descriptor file(::dup(descriptor));
+        if (!file.valid()) failWrite(path, errno);
+        if (const int failed = writeAll(file, bytes)) failWrite(path, failed);
+        return;
+    }
 
     static std::atomic<unsigned> count{0};
     const fs::path temporary =
         target.parent_path() / (".dioptre-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp");
+    const Unfinished remembered(temporary);
     Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!file.valid()) failWrite(path, errno);
     int failed = writeAll(file, bytes);

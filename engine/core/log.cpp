@@ -1,7 +1,6 @@
 #include "core/log.hpp"
 
 #include <spdlog/logger.h>
-#include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <unistd.h>
 
@@ -9,9 +8,6 @@
 #include <cstdio>
 #include <memory>
 #include <utility>
-
-#include "core/error.hpp"
-#include "core/file.hpp"
 
 namespace dioptre {
 
@@ -30,7 +26,6 @@ spdlog::logger& logger() {
 }
 
 void log(spdlog::level::level_enum level, std::string_view prefix, std::string_view message) {
-    if (!logger().should_log(level)) return;
     if (progressShown.exchange(false)) std::fputs("\r\033[K", stderr);
     std::string line(prefix);
     line += message;
@@ -39,26 +34,6 @@ void log(spdlog::level::level_enum level, std::string_view prefix, std::string_v
 
 }  // namespace
 
-void setLogLevel(LogLevel level) {
-    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
-                                                     spdlog::level::err};
-    logger().set_level(kLevels[static_cast<int>(level)]);
-}
-
-void logToFile(const std::filesystem::path& file) {
-    requireWritableName(file);
-    try {
-        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
-        sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %v");
-        logger().sinks().push_back(std::move(sink));
-    } catch (const spdlog::spdlog_ex& e) {
-        throw InputError(file.string() + ": cannot be opened as log file: " + e.what());
-    }
-}
-
-void logDebug(std::string_view message) {
-    log(spdlog::level::debug, "debug: ", message);
-}
 void logInfo(std::string_view message) {
     log(spdlog::level::info, "", message);
 }
@@ -78,7 +53,6 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::update(std::size_t done, std::string_view note) {
     const std::string tail = note.empty() ? "" : " " + std::string(note);
-    if (!logger().should_log(spdlog::level::info)) return;
     if (terminal_) {
         std::fprintf(stderr, "\r\033[K%s %zu/%zu%s", label_.c_str(), done, total_, tail.c_str());
         progressShown = true;

@@ -1,22 +1,12 @@
-// Messages for people, to stderr (pictures and tables go to files, answers to stdout) and, when asked, to a file too.
+// Messages for people, to stderr (pictures and tables go to files, answers to stdout).
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace dioptre {
 
-enum class LogLevel { debug, info, warning, error };
-
-/// Least severe level that is shown; info unless told.
-void setLogLevel(LogLevel level);
-
-/// Also writes every message, with its time and level, to `file` (replaced). InputError where that cannot be opened.
-void logToFile(const std::filesystem::path& file);
-
-void logDebug(std::string_view message);
 void logInfo(std::string_view message);
 void logWarning(std::string_view message);  // "warning: ..."
 void logError(std::string_view message);    // "error: ..."

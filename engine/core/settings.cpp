@@ -36,7 +36,11 @@ Setting row(Setting setting) {
     setting.set = [](Settings& s, const Setting& self, std::string_view text) {
         if (values::read(self, text, (s.*Group).*Member)) return;
         const std::string value = parseNumber(text) ? std::string(text) : quote(text);
-        throw InputError(std::string(self.name) + ": " + value + " is not allowed, it takes " + self.rangeText());
+        const bool fraction =
+            self.kind == SettingKind::integer && self.choices.empty() && parseNumber(text) && !parseInteger(text);
+        throw InputError(std::string(self.name) + ": " + value +
+                         (fraction ? " is no whole number, it takes " : " is not allowed, it takes ") +
+                         self.rangeText());
     };
     setting.defaultText = setting.get(Settings{}, setting);
     return setting;
@@ -210,6 +214,18 @@ std::vector<Setting> makeTable() {
              .name = "context",
              .help = "what draws without a window: osmesa on the CPU, egl; auto: osmesa where built in",
              .choices = {"auto", "osmesa", "egl"}}),
+        row<&S::system, &SystemSettings::maxSceneMb>({.group = "system",
+                                                      .name = "max-scene-mb",
+                                                      .help = "memory that loading a scene may take",
+                                                      .unit = "MB",
+                                                      .min = 1.0,
+                                                      .max = 1e6}),
+        row<&S::system, &SystemSettings::maxTextureSide>({.group = "system",
+                                                          .name = "max-texture-side",
+                                                          .help = "largest width or height of a scene's images",
+                                                          .unit = "px",
+                                                          .min = 1.0,
+                                                          .max = values::kLargestSide}),
     };
 }
 

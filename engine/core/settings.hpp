@@ -87,6 +87,8 @@ enum class ContextChoice { automatic, osmesa, egl };
 
 struct SystemSettings {
     ContextChoice context = ContextChoice::automatic;
+    int maxSceneMb = 6144;       // memory that loading a scene may take, 2^20 bytes
+    int maxTextureSide = 16384;  // px
 };
 
 struct Settings {

@@ -83,11 +83,6 @@ FocusFilter::FocusFilter(const FocusDynamics& dynamics, Dioptres focus)
     validate(dynamics);
 }
 
-void FocusFilter::setDynamics(const FocusDynamics& dynamics) {
-    validate(dynamics);
-    dynamics_ = dynamics;
-}
-
 FocusState FocusFilter::state() const {
     const bool arrived = std::abs((target_ - focus_).value) < kArrived;
     return state_ == FocusState::tracking && arrived ? FocusState::deadZone : state_;

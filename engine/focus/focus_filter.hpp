@@ -73,8 +73,6 @@ class FocusFilter {
     void advance(double time);               // to a frame's time; any number of calls, the result is the same
     void jump(double time, Dioptres focus);  // scene change: there at once, everything waiting is forgotten
 
-    void setDynamics(const FocusDynamics& dynamics);  // from now on; focus stays continuous unless tau is 0
-
     Dioptres focus() const { return focus_; }
     Dioptres target() const { return target_; }
     FocusState state() const;

@@ -41,9 +41,6 @@ struct EyeVergence {
     MidpointShift toMidpoint;
 };
 
-/// The tracker's error (standard deviation) when nothing better is known.
-inline constexpr Radians kDefaultGazeError{0.5 * 3.14159265358979323846 / 180.0};
-
 /// Nearer than 10 cm nobody converges: gazeRegion() need not reach further sideways than this asks for.
 inline constexpr Dioptres kNearestGaze{10.0};
 

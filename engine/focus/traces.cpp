@@ -37,7 +37,7 @@ class TraceReader {
         if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
         const std::string header = fmt::format("{}", fmt::join(names, ","));
         std::string_view line;
-        if (!nextLine(line)) fail(fmt::format("holds no line, must begin with the header {}", header));
+        if (!nextLine(line)) fail(fmt::format("holds no line of data, must begin with the header {}", header));
         split(line);
         if (fields_ != names_) fail(fmt::format("header {}, must be {}", quote(line), header));
     }
@@ -69,7 +69,8 @@ class TraceReader {
         fail(fmt::format("column {} ({}): {}, {}", column + 1, names_[column], quote(fields_[column]), what));
     }
     [[noreturn]] void fail(std::string_view what) const {
-        throw InputError(fmt::format("{}:{}: {}", file_, line_, what));
+        throw InputError(line_ == 0 ? fmt::format("{}: {}", file_, what)
+                                    : fmt::format("{}:{}: {}", file_, line_, what));
     }
 
   private:

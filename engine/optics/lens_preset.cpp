@@ -52,9 +52,7 @@ class Prescription {
         try {
             root_ = json::parse(text, refuseRepeats, true, true);
         } catch (const json::exception& e) {
-            std::string reason = e.what();
-            std::replace(reason.begin(), reason.end(), '\n', ' ');
-            fail(reason);
+            fail("broken JSON" + reasonOf(e.what()) + "; a lens preset is as those in config/lenses");
         }
         if (!root_.is_object()) fail(fmt::format("holds {}, must be an object", root_.type_name()));
     }
@@ -92,6 +90,13 @@ class Prescription {
     }
 
   private:
+    /// Of "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error - ...; last read: ..." the
+    /// place.
+    static std::string reasonOf(std::string_view what) {
+        const std::size_t begin = what.find(" at line "), end = what.find(':', begin);
+        return begin == std::string_view::npos ? "" : std::string(what.substr(begin, end - begin));
+    }
+
     std::string file_;
     json root_;
 };

@@ -1,7 +1,9 @@
 // Writes that happen completely or not at all, and bounded reads.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -82,6 +84,25 @@ TEST_F(FileTest, AFullDiskKeepsTheOldFileAndLeavesNoTrace) {
     EXPECT_EQ(entries(), 1U);
 }
 
+TEST_F(FileTest, ASignalHandlerRemovesWhatIsUnfinished) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        // The signal comes in the middle of the write.
+        const rlimit limit{1000, 1000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        std::signal(SIGXFSZ, [](int) {
+            removeUnfinishedFile();
+            ::_exit(3);
+        });
+        writeFileAtomically(folder / "f", std::string(100'000, 'x'));
+        ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_EQ(entries(), 0U);
+}
+
 TEST_F(FileTest, DevicesAreWrittenAndNotReplaced) {
     EXPECT_EQ(errorOf<RunError>([] { writeFileAtomically("/dev/full", "x"); }),
               "/dev/full: cannot be written: No space left on device");
@@ -100,6 +121,30 @@ TEST_F(FileTest, LinksAreFollowed) {
     fs::create_symlink(folder / "later", folder / "dangling");
     writeFileAtomically(folder / "dangling", "made");
     EXPECT_EQ(readFile(folder / "later", 100), "made");
+}
+
+TEST_F(FileTest, AnOpenFileIsWrittenOnAndNotReplaced) {
+    const fs::path path = folder / "open";
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+    ASSERT_EQ(::write(descriptor, "1", 1), 1);
+    for (const std::string links : {"/dev/fd/", "/proc/self/fd/"})
+        writeFileAtomically(links + std::to_string(descriptor), "2");
+    fs::create_symlink("/dev/fd/" + std::to_string(descriptor), folder / "link");
+    writeFileAtomically(folder / "link", "3");
+    ASSERT_EQ(::write(descriptor, "4", 1), 1);
+    ::close(descriptor);
+    EXPECT_EQ(readFile(path, 100), "12234");
+    EXPECT_EQ(entries(), 2U);
+}
+
+TEST_F(FileTest, FoldersAreMade) {
+    makeFolder(folder / "a/b", "--out");
+    makeFolder(folder / "a/b", "--out");
+    EXPECT_TRUE(fs::is_directory(folder / "a/b"));
+    writeFileAtomically(folder / "file", "x");
+    for (const char* name : {"file", "file/below"})
+        EXPECT_TRUE(errorOf<InputError>([&] { makeFolder(folder / name, "--out"); }).starts_with("--out: ")) << name;
+    EXPECT_NE(errorOf<RunError>([] { makeFolder("/proc/dioptre-test", "--out"); }), "none");
 }
 
 TEST_F(FileTest, WrongNamesAreUsageErrors) {

@@ -87,7 +87,9 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"show", "coc"},
                                      {"exposure", "1"},
                                      {"tonemap", "neutral"},
-                                     {"context", "egl"}})
+                                     {"context", "egl"},
+                                     {"max-scene-mb", "100"},
+                                     {"max-texture-side", "256"}})
         applySetting(settings, name, text);
     for (const Setting& setting : settingsTable())
         EXPECT_NE(setting.get(settings, setting), setting.defaultText) << setting.name << " is missing in this test";

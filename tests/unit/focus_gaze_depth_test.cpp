@@ -204,8 +204,8 @@ TEST(GazeDepthTest, RegionIsWithinThePictureAndReachesSidewaysWhereTheEyeDoes) {
 
 TEST(GazeDepthTest, ConeInPixels) {
     const View head = headView();
-    const glm::dvec2 sigma = coneSigmaPixels(head, kDefaultGazeError);
-    EXPECT_NEAR(sigma.y, focalLengthPixels(head).y * std::tan(0.5 * std::acos(-1.0) / 180.0), 1e-12);
+    const glm::dvec2 sigma = coneSigmaPixels(head, Radians(0.01));
+    EXPECT_NEAR(sigma.y, focalLengthPixels(head).y * std::tan(0.01), 1e-12);
 }
 
 }  // namespace

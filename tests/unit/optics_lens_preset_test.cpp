@@ -166,8 +166,8 @@ TEST(LensPresetTest, BadFilesNameTheKeyAndTheRange) {
     const std::string eye = R"({"name": "a", "kind": "eye", "focalLengthMm": 17)";
     const std::string camera = R"({"name": "a", "kind": "camera", "focalLengthMm": 50)";
     const std::vector<BadPreset> cases = {
-        {"", "parse error"},
-        {"{", "parse error"},
+        {"", "broken JSON at line 1"},
+        {"{", "broken JSON at line 1"},
         {"[1]", "array"},
         {"null", "null"},
         {R"({"name": "a", "focalLengthMm": 17})", "kind"},
@@ -195,7 +195,7 @@ TEST(LensPresetTest, BadFilesNameTheKeyAndTheRange) {
         {camera + R"(, "fNumber": 0})", "fNumber"},
         {camera + R"(, "fNumber": 2, "apertureDiameterMm": 25})", "both"},
         {camera + R"(, "fNumber": 2, "ageYears": 30})", "ageYears"},
-        {"{\"name\": \"\xff\", \"kind\": \"eye\", \"focalLengthMm\": 17}", "parse error"},
+        {"{\"name\": \"\xff\", \"kind\": \"eye\", \"focalLengthMm\": 17}", "broken JSON at line 1"},
     };
     for (const BadPreset& bad : cases) {
         SCOPED_TRACE(bad.text);
