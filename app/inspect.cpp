@@ -87,13 +87,12 @@ std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
 
 void runInspect(const Command& command) {
     Scene scene = loadScene(command);
-    std::fputs(sceneText(scene).c_str(), stdout);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
-    const std::string memory = memoryText(scene, maker.scene());
+    const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
     scene.releaseBulk();
     const FrameReport& frame = maker.make({});
-    std::fputs((memory + lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
+    std::fputs((text + lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
 }
 
 }  // namespace dioptre

@@ -1,5 +1,6 @@
 // dioptre: the program. Parses the command line, runs one command, turns errors into one line and an exit code.
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -8,6 +9,7 @@
 #include "commands.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "interrupt.hpp"
 #include "scene/builtin.hpp"
 #include "scene/gltf_loader.hpp"
 
@@ -16,7 +18,10 @@ namespace dioptre {
 Scene loadScene(const Command& command) {
     const std::string name = command.scene.empty() ? "builtin:studio" : command.scene;
     const auto builtin = builtinName(name);
-    Scene scene = builtin ? loadBuiltin(*builtin, cacheFolder()) : loadGltf(name);
+    LoadLimits limits;
+    limits.maxTotalBytes = static_cast<std::uint64_t>(command.settings.system.maxSceneMb) << 20;
+    limits.maxImageSide = command.settings.system.maxTextureSide;
+    Scene scene = builtin ? loadBuiltin(*builtin, cacheFolder()) : loadGltf(name, limits);
     for (const std::string& warning : scene.warnings) logWarning(warning);
     return scene;
 }
@@ -68,6 +73,7 @@ void run(const Command& command) {
 }  // namespace dioptre
 
 int main(int argc, char** argv) {
+    dioptre::handleSignals();
     try {
         dioptre::run(dioptre::parseCommandLine(argc, argv));
         // A full disk shows only when what was printed is written out.

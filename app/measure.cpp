@@ -1,14 +1,13 @@
 // dioptre measure: the speed-accuracy trade of every technique, as tables and a page.
 #include <fmt/format.h>
 
-#include <csignal>
-
 #include "commands.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "frame/measure.hpp"
 #include "gl/context.hpp"
 #include "gl/pass.hpp"
+#include "interrupt.hpp"
 #include "scene/builtin.hpp"
 
 #ifndef DIOPTRE_COMMIT
@@ -21,16 +20,6 @@ namespace {
 
 // So that --quick ends within two minutes on two cores.
 constexpr double kQuickRowMilliseconds = 1500.0;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first Ctrl-C ends the run in good order, the second at once.
-void watchInterrupts() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = 1; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(SIGINT, &action, nullptr);
-}
 
 std::string nameOf(const std::string& scene) {
     if (const auto builtin = builtinName(scene)) return *builtin;
@@ -63,7 +52,7 @@ MeasureRequest requestOf(const Command& command, std::size_t scenes) {
     request.context = command.settings.system.context == ContextChoice::osmesa ? "osmesa"
                       : command.settings.system.context == ContextChoice::egl  ? "egl"
                                                                                : "auto";
-    request.stopped = [] { return interrupted != 0; };
+    request.stopped = interrupted;
     return request;
 }
 
@@ -85,7 +74,7 @@ void runMeasure(const Command& command) {
     const auto context = openHeadlessContext(command);
     Measuring measuring(requestOf(command, scenes.size()));
     for (const std::string& name : scenes) {
-        if (interrupted) break;
+        if (interrupted()) break;
         Command one = command;
         one.scene = name;
         if (!measuring.add(nameOf(name), loadScene(one))) break;
@@ -93,7 +82,7 @@ void runMeasure(const Command& command) {
     measuring.finish();
     const std::size_t rows = measuring.measurements().rows.size();
     const std::string page = (command.out / "index.html").string();
-    if (interrupted)
+    if (interrupted())
         throw RunError(fmt::format("stopped with {} of {} rows measured, in {}; --resume goes on from there", rows,
                                    measuring.rowsWanted(), command.out.string()));
     logInfo(fmt::format("{} rows, {} of them new, in {}; to look at: {}", rows, measuring.rowsAdded(),

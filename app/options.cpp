@@ -108,6 +108,17 @@ void addLog(CLI::App& command, Command& result) {
         ->take_last();
 }
 
+/// A range as settings have it, said as they say it.
+CLI::Validator within(double least, double most, bool whole) {
+    const auto check = [=](const std::string& text) -> std::string {
+        const auto number = parseNumber(text);
+        if (number && *number >= least && *number <= most && (!whole || parseInteger(text))) return {};
+        return fmt::format("{} is {}, it takes {}..{}", number ? text : quote(text),
+                           number && whole && !parseInteger(text) ? "no whole number" : "not allowed", least, most);
+    };
+    return {check, ""};
+}
+
 std::string builtinList() {
     return fmt::format("{}", fmt::join(builtinNames(), ", "));
 }
@@ -117,7 +128,8 @@ void addScene(CLI::App& command, Command& result) {
         .add_option("SCENE", result.scene,
                     "glTF file (.glb or .gltf), or one that comes with the program, builtin:NAME: " + builtinList() +
                         "; not given: builtin:studio")
-        ->type_name("FILE|builtin:NAME");
+        ->type_name("FILE|builtin:NAME")
+        ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "is empty" : std::string(); }, ""));
 }
 
 void addMeasure(CLI::App& command, Command& result, std::vector<std::string>& sizes) {
@@ -137,7 +149,7 @@ void addMeasure(CLI::App& command, Command& result, std::vector<std::string>& si
                     "points of the lens in each of the reference's two halves [1..32768; default 256]")
         ->type_name("N")
         ->take_last()
-        ->check(CLI::Range(1, kMaxReferenceSamples).description(""));
+        ->check(within(1, kMaxReferenceSamples, true));
     command.add_flag("--quick", options.quick, "studio alone, 320x240, 64 samples, where not told otherwise");
     command.add_flag("--resume", options.resume, "keep what the folder holds already, measure the rest");
 }
@@ -248,12 +260,14 @@ Command parseCommandLine(int argc, const char* const* argv) {
                      "length of a sequence, written with a page to look at [1..1000000; default 1: one picture]")
         ->type_name("N")
         ->take_last()
-        ->check(CLI::Range(1, kMaxFrames).description(""));
+        ->check(within(1, kMaxFrames, true));
     render->add_option("--fps", result.fps, "pictures per second of the sequence [0.001..1000; default 30]")
         ->type_name("R")
         ->take_last()
-        ->check(CLI::Range(kMinFps, kMaxFps).description(""));
-    CLI::App* view = app.add_subcommand("view", "show the scene in a window; the pointer is the gaze, Escape closes");
+        ->check(within(kMinFps, kMaxFps, false));
+    CLI::App* view = app.add_subcommand(
+        "view",
+        "show the scene in a window; the pointer is the gaze, another scene can be dropped onto it, Escape closes");
     addScene(*view, result);
     for (CLI::App* command : {render, view}) addLog(*command, result);
     CLI::App* inspect = app.add_subcommand(

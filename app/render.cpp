@@ -9,11 +9,22 @@
 #include "frame/frame_maker.hpp"
 #include "frame/sequence.hpp"
 #include "gl/context.hpp"
+#include "interrupt.hpp"
 
 namespace dioptre {
 
+namespace {
+
+std::filesystem::path normal(const std::filesystem::path& folder) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute("." / folder / ""));
+}
+
+}  // namespace
+
 void runRender(const Command& command) {
-    if (!command.log.empty()) requireWritableName(command.log);
+    const bool sequence = command.frames > 1;
+    const bool logInFolder = sequence && normal(command.log.parent_path()) == normal(command.out);
+    if (!command.log.empty() && !logInFolder) requireWritableName(command.log);
     Scene scene = loadScene(command);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
@@ -24,16 +35,22 @@ void runRender(const Command& command) {
             logWarning(fmt::format("the lens cannot focus there: {:.2f} D was asked for, {:.2f} D is in reach",
                                    lens.lens.focus.value + lens.residual.value, lens.lens.focus.value));
     };
-    if (command.frames == 1) {
+    if (!sequence) {
         shown.push_back(maker.make({}));
         warnIfLimited(shown.back().lens);
         writeImage(command.out, maker.composed());
     } else {
-        shown = renderSequence(maker, {scene.name, command.frames, command.fps, command.out});
-        logInfo(fmt::format("{} frames in {}, to look at: {}", shown.size(), command.out.string(),
-                            (command.out / "index.html").string()));
+        makeFolder(command.out, "--out");
+        if (!command.log.empty()) requireWritableName(command.log);
+        watchInterrupts();
+        shown = renderSequence(maker, {scene.name, command.frames, command.fps, command.out, interrupted});
+        if (!shown.empty())
+            logInfo(fmt::format("{} frames in {}, to look at: {}", shown.size(), command.out.string(),
+                                (command.out / "index.html").string()));
     }
     if (!command.log.empty()) writeFileAtomically(command.log, frameLogCsv(shown));
+    if (shown.size() < static_cast<std::size_t>(command.frames))
+        throw RunError(fmt::format("stopped with {} of {} frames drawn", shown.size(), command.frames));
 }
 
 }  // namespace dioptre

@@ -17,26 +17,28 @@ std::string glfwReason() {
 
 }  // namespace
 
-Window::Window(int width, int height, const std::string& title) {
+Window::Library::Library() {
     if (!glfwInit()) throw RunError("window: " + glfwReason());
+}
+
+Window::Library::~Library() {
+    glfwTerminate();
+}
+
+void Window::Close::operator()(GLFWwindow* window) const {
+    glfwDestroyWindow(window);
+}
+
+Window::Window(int width, int height, const std::string& title) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-    if (!window_) {
-        const std::string reason = glfwReason();
-        glfwTerminate();
-        throw RunError("window: " + reason);
-    }
-    glfwMakeContextCurrent(window_);
+    window_.reset(glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr));
+    if (!window_) throw RunError("window: " + glfwReason());
+    glfwMakeContextCurrent(window_.get());
     glfwSwapInterval(1);
     loadGl(glfwGetProcAddress);
-}
-
-Window::~Window() {
-    glfwDestroyWindow(window_);
-    glfwTerminate();
 }
 
 }  // namespace dioptre

@@ -67,7 +67,8 @@ LensConditions conditionsOf(const LensSettings& settings) {
 std::optional<ScreenGeometry> screenOf(const ViewSettings& settings) {
     if (!settings.screenWidthMm && !settings.screenDistanceMm) return std::nullopt;
     if (!settings.screenWidthMm || !settings.screenDistanceMm)
-        throw InputError("--screen-width-mm and --screen-distance-mm belong together: only one is given");
+        throw InputError(settings.screenWidthMm ? "--screen-width-mm needs --screen-distance-mm, too"
+                                                : "--screen-distance-mm needs --screen-width-mm, too");
     return ScreenGeometry{Metres(*settings.screenWidthMm * 1e-3), Metres(*settings.screenDistanceMm * 1e-3)};
 }
 
@@ -80,6 +81,41 @@ void checkFocus(const LensPreset& preset, double metres) {
     }
 }
 
+bool drawsBothEyes(const ViewSettings& settings) {
+    return settings.eye == EyeChoice::both && settings.display != DisplayChoice::mono;
+}
+
+/// Whether a texture of that kind can be had: more than its sides, its memory has a limit.
+bool possible(GLenum format, int samples, PictureSize size) {
+    const GLenum target = samples > 0 ? GL_PROXY_TEXTURE_2D_MULTISAMPLE : GL_PROXY_TEXTURE_2D;
+    if (samples > 0)
+        glTexImage2DMultisample(target, samples, format, size.width, size.height, GL_TRUE);
+    else
+        glTexImage2D(target, 0, static_cast<GLint>(format), size.width, size.height, 0, GL_RGBA, GL_FLOAT, nullptr);
+    GLint width = 0;
+    glGetTexLevelParameteriv(target, 0, GL_TEXTURE_WIDTH, &width);
+    return width == size.width;
+}
+
+/// Asked once, before anything is drawn.
+const Settings& requireDrawable(const Settings& settings) {
+    const ViewSettings& view = settings.view;
+    const PictureSize whole = drawsBothEyes(view) ? composedSize(view.display, view.size) : view.size;
+    GLint side = 0, viewport[2] = {};
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    const int width = std::min(side, viewport[0]), height = std::min(side, viewport[1]);
+    if (whole.width > width || whole.height > height)
+        throw InputError(fmt::format("--size: {}x{} makes a picture of {}x{}, this OpenGL draws at most {}x{}",
+                                     view.size.width, view.size.height, whole.width, whole.height, width, height));
+    const int msaa = settings.render.technique == TechniqueChoice::reference ? 0 : settings.render.msaa;
+    if (!possible(GL_RGBA16F, msaa, view.size) || !possible(GL_RGBA32F, 0, whole))
+        throw InputError(
+            fmt::format("--size: {}x{} with --msaa {} takes more memory in one texture than this OpenGL gives",
+                        view.size.width, view.size.height, msaa));
+    return settings;
+}
+
 /// The gaze as visual angles from the axis, degrees, for its speed.
 glm::dvec2 gazeDegrees(const View& view, glm::dvec2 gaze) {
     const Frustum& f = view.frustum;
@@ -90,7 +126,7 @@ glm::dvec2 gazeDegrees(const View& view, glm::dvec2 gaze) {
 }  // namespace
 
 FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
-    : settings_(settings),
+    : settings_(requireDrawable(settings)),
       scene_(scene),
       start_(startView(scene, settings.view)),
       preset_(loadLensPreset(lensFile(settings.lens.lens))),
@@ -99,8 +135,7 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     if (!settings.focus.gazeTrace.empty()) gazeTrace_ = readGazeTrace(settings.focus.gazeTrace);
     if (!settings.focus.headTrace.empty()) headTrace_ = readHeadTrace(settings.focus.headTrace);
     if (settings.focus.focus.mode == FocusMode::metres) checkFocus(preset_, settings.focus.focus.metres);
-    const bool both = settings.view.eye == EyeChoice::both && settings.view.display != DisplayChoice::mono;
-    for (int i = 0; i < (both ? 2 : 1); ++i)
+    for (int i = 0; i < (drawsBothEyes(settings.view) ? 2 : 1); ++i)
         eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
     report_.plan = planText(settings.render);
     if (const double brightest = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
@@ -229,8 +264,8 @@ Image FrameMaker::composed() const {
     return image;
 }
 
-void FrameMaker::present(int width, int height) {
-    compositor_.present(width, height, report_.passes);
+void FrameMaker::present(PictureSize window) {
+    compositor_.present(window, report_.passes);
 }
 
 std::size_t FrameMaker::techniqueBytes() const {

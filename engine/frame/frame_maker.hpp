@@ -39,7 +39,8 @@ View startView(const Scene& scene, const ViewSettings& settings);
 
 class FrameMaker {
   public:
-    /// Loads what the settings name (lens, traces). Needs a current context that outlives it. Throws InputError.
+    /// Loads what the settings name (lens, traces). Needs a current context that outlives it. Throws InputError, also
+    /// for a picture larger than this OpenGL draws.
     FrameMaker(const Scene& scene, const Settings& settings);
 
     /// What the viewer does between frames, where no trace says it.
@@ -58,9 +59,8 @@ class FrameMaker {
 
     /// The last frame: read back, linear; or shown in the window's framebuffer of that size.
     Image composed() const;  // warns, once, of radiance that half floats could not hold
-    void present(int width, int height);
+    void present(PictureSize window);
 
-    const ResolvedLens& lens() const { return report_.lens; }
     const View& startingView() const { return start_; }
     std::size_t techniqueBytes() const;
     const GpuScene& scene() const { return scene_; }

@@ -47,11 +47,7 @@ struct Measuring::Subject {
 };
 
 Measuring::Measuring(MeasureRequest request) : request_(std::move(request)), pictures_(request_.folder / "pictures") {
-    std::error_code error;
-    std::filesystem::create_directories(request_.folder, error);
-    if (!std::filesystem::is_directory(request_.folder))
-        throw InputError(fmt::format("--out: {} cannot be made a folder: {}", request_.folder.string(),
-                                     error ? error.message() : "a file of that name is there"));
+    makeFolder(request_.folder, "--out");
     all_.with = measuredHere();
     all_.with.program = request_.program;
     all_.with.commit = request_.commit;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image.hpp"
 #include "core/log.hpp"
@@ -10,14 +9,9 @@
 namespace dioptre {
 
 std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest& request) {
-    std::error_code error;
-    std::filesystem::create_directories(request.folder, error);
-    if (!std::filesystem::is_directory(request.folder))
-        throw InputError(fmt::format("--out: {} cannot be made a folder: {}", request.folder.string(),
-                                     error ? error.message() : "a file of that name is there"));
     std::vector<FrameReport> shown;
     ProgressLine progress("frame", static_cast<std::size_t>(request.frames));
-    for (int i = 0; i < request.frames; ++i) {
+    for (int i = 0; i < request.frames && !request.stopped(); ++i) {
         FrameMaker::Input input;
         input.time = i / request.fps;
         // The first frame alone pays for compiling shaders: drawn once before it counts.
@@ -26,7 +20,7 @@ std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest
         writeImage(request.folder / fmt::format("frame_{:04d}.png", i), maker.composed());
         progress.update(static_cast<std::size_t>(i) + 1);
     }
-    writeFileAtomically(request.folder / "index.html", sequencePage(request, shown));
+    if (!shown.empty()) writeFileAtomically(request.folder / "index.html", sequencePage(request, shown));
     return shown;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,12 +14,13 @@ namespace dioptre {
 struct SequenceRequest {
     std::string title;  // the scene's name
     int frames = 1;
-    double fps = 30.0;             // frame i is at i / fps seconds
-    std::filesystem::path folder;  // made if missing
+    double fps = 30.0;                                     // frame i is at i / fps seconds
+    std::filesystem::path folder;                          // must be there
+    std::function<bool()> stopped = [] { return false; };  // asked before each frame
 };
 
-/// Draws frame_0000.png and on, then index.html, with a progress line. Throws InputError or RunError; what was finished
-/// before stays.
+/// Draws frame_0000.png and on, then index.html, with a progress line; fewer frames than asked for where `stopped` said
+/// so. Throws RunError; what was finished before stays.
 std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest& request);
 
 /// One line per frame: time, gaze, focus (D), pupil diameter (mm), plan, milliseconds. What `--log` writes.

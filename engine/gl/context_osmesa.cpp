@@ -1,6 +1,8 @@
 #ifdef DIOPTRE_OSMESA
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "gl/headless.hpp"
@@ -23,18 +25,18 @@ class OsmesaContext final : public Context {
                                   OSMESA_CONTEXT_MINOR_VERSION,
                                   5,
                                   0};
-        context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+        context_.reset(OSMesaCreateContextAttribs(attributes, nullptr));
         if (!context_) throw RunError("--context osmesa: no OpenGL 4.5 core context from this OSMesa");
-        if (!OSMesaMakeCurrent(context_, surface_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
-            OSMesaDestroyContext(context_);
+        if (!OSMesaMakeCurrent(context_.get(), surface_.data(), GL_UNSIGNED_BYTE, 1, 1))
             throw RunError("--context osmesa: the context could not be made current");
-        }
         loadGl(OSMesaGetProcAddress);
     }
-    ~OsmesaContext() override { OSMesaDestroyContext(context_); }
 
   private:
-    OSMesaContext context_ = nullptr;
+    struct Destroy {
+        void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
+    };
+    std::unique_ptr<std::remove_pointer_t<OSMesaContext>, Destroy> context_;
     std::array<std::uint8_t, 4> surface_{};  // the default framebuffer, never drawn to
 };
 

@@ -39,6 +39,21 @@ std::size_t texelBytes(GLenum format) {
     }
 }
 
+/// Runs what allocates in GL; a failure is thrown as one line, where the debug output would print one of its own.
+template <class Allocate>
+void allocating(std::string_view text, std::size_t bytes, const Allocate& allocate) {
+    glDisable(GL_DEBUG_OUTPUT);
+    allocate();
+    const GLenum error = glGetError();
+    glEnable(GL_DEBUG_OUTPUT);
+    const double megabytes = static_cast<double>(bytes) / 1e6;
+    if (error == GL_OUT_OF_MEMORY)
+        throw RunError(fmt::format(
+            "{}: {:.1f} MB are more than this OpenGL gives; a smaller --size or --msaa 0 takes less", text, megabytes));
+    if (error != GL_NO_ERROR)
+        throw RunError(fmt::format("{}: {:.1f} MB cannot be had (OpenGL error 0x{:x})", text, megabytes, error));
+}
+
 }  // namespace
 
 Texture::Texture(const TextureSpec& spec, std::string_view text) : spec_(spec) {
@@ -47,21 +62,25 @@ Texture::Texture(const TextureSpec& spec, std::string_view text) : spec_(spec) {
     if (spec.width > limit || spec.height > limit)
         throw RunError(fmt::format("{}: {}x{} texels, this GL allows {}", text, spec.width, spec.height, limit));
     GLuint name = 0;
-    if (spec.samples > 0) {
-        glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &name);
-        glTextureStorage2DMultisample(name, spec.samples, spec.format, spec.width, spec.height, GL_TRUE);
-    } else {
-        glCreateTextures(spec.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
-        if (spec.layers > 0)
+    glCreateTextures(spec.samples > 0  ? GL_TEXTURE_2D_MULTISAMPLE
+                     : spec.layers > 0 ? GL_TEXTURE_2D_ARRAY
+                                       : GL_TEXTURE_2D,
+                     1, &name);
+    Handle::operator=(Handle(name));
+    allocating(text, bytes(), [&] {
+        if (spec.samples > 0)
+            glTextureStorage2DMultisample(name, spec.samples, spec.format, spec.width, spec.height, GL_TRUE);
+        else if (spec.layers > 0)
             glTextureStorage3D(name, spec.levels, spec.format, spec.width, spec.height, spec.layers);
         else
             glTextureStorage2D(name, spec.levels, spec.format, spec.width, spec.height);
+    });
+    if (spec.samples == 0) {
         glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
-    Handle::operator=(Handle(name));
     label(GL_TEXTURE, name, text);
 }
 
@@ -82,12 +101,14 @@ void Texture::setLinear(bool levels) {
 Buffer::Buffer(std::size_t bytes, const void* data, bool dynamic, std::string_view text) : bytes_(bytes) {
     GLuint name = 0;
     glCreateBuffers(1, &name);
+    Handle::operator=(Handle(name));
     // GL has no empty buffers: an empty scene still binds one.
     const std::size_t storage = std::max<std::size_t>(bytes, 16);
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(storage), bytes >= 16 ? data : nullptr,
-                         dynamic || bytes < 16 ? GL_DYNAMIC_STORAGE_BIT : 0u);
+    allocating(text, storage, [&] {
+        glNamedBufferStorage(name, static_cast<GLsizeiptr>(storage), bytes >= 16 ? data : nullptr,
+                             dynamic || bytes < 16 ? GL_DYNAMIC_STORAGE_BIT : 0u);
+    });
     if (data && bytes > 0 && bytes < 16) glNamedBufferSubData(name, 0, static_cast<GLsizeiptr>(bytes), data);
-    Handle::operator=(Handle(name));
     label(GL_BUFFER, name, text);
 }
 

@@ -1,5 +1,8 @@
 #include "present/compositor.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dioptre {
 
 PictureSize composedSize(DisplayChoice display, PictureSize eye) {
@@ -8,7 +11,18 @@ PictureSize composedSize(DisplayChoice display, PictureSize eye) {
     return eye;
 }
 
-void Compositor::draw(const Composition& composition, int width, int height, bool encode) {
+Placement fitted(PictureSize picture, PictureSize window) {
+    const double scale = std::min(static_cast<double>(window.width) / picture.width,
+                                  static_cast<double>(window.height) / picture.height);
+    Placement place;
+    place.width = std::max(1, static_cast<int>(std::lround(picture.width * scale)));
+    place.height = std::max(1, static_cast<int>(std::lround(picture.height * scale)));
+    place.x = (window.width - place.width) / 2;
+    place.y = (window.height - place.height) / 2;
+    return place;
+}
+
+void Compositor::draw(const Composition& composition, const Placement& place, bool encode) {
     if (!pass_.program()) pass_ = FullscreenPass("present/compose.frag.glsl");
     const bool swapped = composition.swapEyes && composition.display != DisplayChoice::mono;
     (swapped ? composition.right : composition.left).bind(0);
@@ -30,7 +44,8 @@ void Compositor::draw(const Composition& composition, int width, int height, boo
     }();
     const Program& program = pass_.program();
     program.set("mode", mode);
-    program.set("size", glm::vec2(width, height));
+    program.set("origin", glm::vec2(place.x, place.y));
+    program.set("size", glm::vec2(place.width, place.height));
     program.set("neutral", composition.tonemap == ToneMapChoice::neutral ? 1 : 0);
     program.set("encode", encode ? 1 : 0);
     pass_.draw();
@@ -46,15 +61,18 @@ const Texture& Compositor::compose(const Composition& composition, PassLog& log)
         target_ = Framebuffer(color, nullptr, "composed picture");
     }
     target_.bind();
-    draw(composition, size.width, size.height, false);
+    draw(composition, {0, 0, size.width, size.height}, false);
     return output_;
 }
 
-void Compositor::present(int width, int height, PassLog& log) {
+void Compositor::present(PictureSize window, PassLog& log) {
     PassScope scope(log, "present");
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
-    draw({output_, output_, DisplayChoice::mono, false, ToneMapChoice::none}, width, height, true);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const Placement place = fitted({output_.width(), output_.height()}, window);
+    glViewport(place.x, place.y, place.width, place.height);
+    draw({output_, output_, DisplayChoice::mono, false, ToneMapChoice::none}, place, true);
 }
 
 }  // namespace dioptre

@@ -11,6 +11,12 @@ namespace dioptre {
 /// Size of the composed picture from ONE eye's: twice as wide for sideBySide, twice as high for topBottom.
 PictureSize composedSize(DisplayChoice display, PictureSize eye);
 
+struct Placement {
+    int x = 0, y = 0, width = 1, height = 1;  // pixels
+};
+/// Where a picture lies in a window: as large as fits, in the middle, not stretched.
+Placement fitted(PictureSize picture, PictureSize window);
+
 struct Composition {
     const Texture& left;   // the only picture for DisplayChoice::mono
     const Texture& right;  // same size
@@ -23,11 +29,11 @@ class Compositor {
   public:
     /// Linear, RGBA32F, composedSize; valid until the next call.
     const Texture& compose(const Composition& composition, PassLog& log);
-    /// The last composition, sRGB-encoded, stretched over the window's framebuffer (0) of that size.
-    void present(int width, int height, PassLog& log);
+    /// The last composition, sRGB-encoded, fitted into the window's framebuffer (0) of that size, black around it.
+    void present(PictureSize window, PassLog& log);
 
   private:
-    void draw(const Composition& composition, int width, int height, bool encode);
+    void draw(const Composition& composition, const Placement& place, bool encode);
 
     FullscreenPass pass_;
     Texture output_;

@@ -2,7 +2,8 @@
 layout(binding = 0) uniform sampler2D leftEye;
 layout(binding = 1) uniform sampler2D rightEye;
 uniform int mode;      // Layout in present/compositor.hpp
-uniform vec2 size;     // of the target, pixels
+uniform vec2 origin;   // of the picture in the target, pixels
+uniform vec2 size;     // of the picture in the target, pixels
 uniform int neutral;   // Khronos PBR Neutral tone mapping
 uniform int encode;    // to sRGB, for a window
 
@@ -52,7 +53,7 @@ vec3 sRgb(vec3 c) {
 
 void main() {
     // Both eyes' halves begin at a whole pixel, so that equal pictures stay equal to the bit; the left eye is above.
-    vec2 at = gl_FragCoord.xy;
+    vec2 at = gl_FragCoord.xy - origin;
     vec2 halves = ceil(0.5 * size);
     bool second = mode == 3 ? at.y < halves.y : at.x >= halves.x;
     vec2 inHalf = at;

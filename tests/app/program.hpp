@@ -122,7 +122,6 @@ class ProgramTest : public testing::Test {
         ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
         if (fileSizeLimit != RLIM_INFINITY) {
             const rlimit limit{fileSizeLimit, fileSizeLimit};
-            std::signal(SIGXFSZ, SIG_IGN);
             ::setrlimit(RLIMIT_FSIZE, &limit);
             ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // it would be cut off, too
         }

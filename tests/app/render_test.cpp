@@ -189,6 +189,66 @@ TEST_F(RenderTest, AFileThatCannotBeWrittenIsNotThere) {
     EXPECT_EQ(leftBehind(), std::vector<std::string>{"old.pfm"});
 }
 
+TEST_F(RenderTest, FoldersAndFilesThatCannotBeMadeAreAlike) {
+    for (const char* sequence : {"1", "2"}) {
+        const Outcome outcome =
+            run({"render", "scene.gltf", "--size", "8x6", "--frames", sequence, "--out", "/proc/x.png"});
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_EQ(linesOf(outcome.err).size(), 1u) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("/proc/x.png"));
+    }
+}
+
+TEST_F(RenderTest, TheLogMayLieInTheFolderThatASequenceMakes) {
+    draw({"--frames", "2", "--out", "new/seq", "--log", "./new/seq/log.csv"});
+    EXPECT_EQ(linesOf(read("new/seq/log.csv")).size(), 3u);
+    EXPECT_TRUE(there("new/seq/index.html"));
+    expectRefused(run({"render", "scene.gltf", "--frames", "2", "--out", "other", "--log", "another/log.csv"}),
+                  {"another/log.csv", "does not exist"});
+    EXPECT_FALSE(there("other"));
+}
+
+TEST_F(RenderTest, WhatIsRedirectedKeepsWhatElseIsWrittenThere) {
+    write("steps.sh", R"(
+exec >all.txt
+echo before
+"$1" render scene.gltf --size 8x6 --out x.png --log /dev/stdout
+echo after
+)");
+    ASSERT_EQ(runProgram("sh", {"steps.sh", DIOPTRE_PROGRAM}).status, 0);
+    const std::vector<std::string> lines = linesOf(read("all.txt"));
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_EQ(lines[0], "before");
+    EXPECT_TRUE(lines[1].starts_with("t_s,")) << lines[1];
+    EXPECT_EQ(lines[3], "after");
+}
+
+TEST_F(RenderTest, ASequenceThatIsStoppedKeepsItsPageAndLog) {
+    // Waits until two frames are there.
+    write("steps.sh", R"(
+"$1" render scene.gltf --size 40x30 --frames 1000000 --out seq --log log.csv & program=$!
+for try in $(seq 300); do
+    [ -e seq/frame_0001.png ] && break
+    sleep 0.05
+done
+kill -TERM $program
+wait $program
+)");
+    const Outcome outcome = runProgram("sh", {"steps.sh", DIOPTRE_PROGRAM});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error: stopped with "));
+    const std::size_t frames = linesOf(read("log.csv")).size() - 1;
+    EXPECT_GE(frames, 2u);
+    std::size_t pictures = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "seq")) {
+        const std::string name = entry.path().filename();
+        if (name.starts_with("frame_")) ++pictures;
+        EXPECT_TRUE(name.starts_with("frame_") || name == "index.html") << name;
+    }
+    EXPECT_EQ(pictures, frames);
+    EXPECT_THAT(read("seq/index.html"), HasSubstr(std::to_string(frames) + " frames"));
+}
+
 TEST_F(RenderTest, ComparesPictures) {
     drawn({"--eye", "left"}, "left.png");
     drawn({"--eye", "right"}, "right.pfm");

@@ -51,14 +51,25 @@ TEST_F(UsageTest, ValuesOutOfRangeNameOptionValueAndLimit) {
              {"--camera", "nobody", "0 'eye'"},
              {"--lens", "spectacles", "eye-60"},
              {"--pose", "0,0,0,0,0,0,0", "quaternion"},
+             {"--blades", "2.5", "no whole number"},
+             {"--frames", "0", "1..1000000"},
+             {"--frames", "2.5", "no whole number"},
+             {"--fps", "0", "0.001..1000"},
+             {"--fps", "fast", "0.001..1000"},
+             {"--size", "16384x10", "32768x10"},
+             {"--screen-width-mm", "500", "needs --screen-distance-mm"},
+             {"--screen-distance-mm", "500", "needs --screen-width-mm"},
          }) {
         const Outcome outcome = run({"render", "scene.gltf", "--out", "x.png", wrong[0], wrong[1]});
-        expectRefused(outcome, {wrong[0], wrong[1], wrong[2]});
+        expectRefused(outcome, {wrong[0], wrong[2]});
+        if (!wrong[0].starts_with("--screen")) {
+            EXPECT_THAT(outcome.err, HasSubstr(wrong[1]));
+        }
         EXPECT_FALSE(there("x.png")) << wrong[0];
     }
-    expectRefused(run({"render", "scene.gltf", "--out", "x", "--frames", "0"}), {"--frames", "0", "1000000"});
-    expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--screen-width-mm", "500"}),
-                  {"--screen-distance-mm"});
+    // Within the sides' limit, but 4 GB of samples
+    expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--eye", "centre", "--size", "16384x8192"}),
+                  {"--size", "16384x8192", "--msaa 4"});
 }
 
 TEST_F(UsageTest, ScenesThatCannotBeReadAreRefusedInOneLine) {
@@ -79,6 +90,22 @@ TEST_F(UsageTest, ScenesThatCannotBeReadAreRefusedInOneLine) {
     }
 }
 
+TEST_F(UsageTest, ScenesAreNamedOnceAndToldFromPictures) {
+    EXPECT_EQ(run({"inspect", "absent.glb"}).err, "error: absent.glb: no such file\n");
+    expectRefused(run({"inspect", ""}), {"SCENE", "empty"});
+    // 1 MB of zeros as positions
+    write("scene.large.gltf", [this] {
+        std::string json = read("scene.gltf");
+        json.replace(json.find("{\"bufferView\": 0"), 16, "{\"name\": \"zeros\"");
+        return json.replace(json.find("\"count\": 4"), 10, "\"count\": 90000");
+    }());
+    expectRefused(run({"inspect", "scene.large.gltf", "--max-scene-mb", "1"}),
+                  {"meshes[0].primitives[0]", "of at most 1048576 bytes"});
+    ASSERT_EQ(run({"render", "scene.gltf", "--size", "8x6", "--out", "x.png"}).status, 0);
+    expectRefused(run({"inspect", "x.png"}), {"x.png: is a PNG picture, not a glTF scene"});
+    expectRefused(run({"inspect", "scene.gltf", "--lens", "x.png"}), {"x.png: broken JSON", "lens preset"});
+}
+
 TEST_F(UsageTest, ConfigFilesNameFileAndLine) {
     write("key.json", "{\n  // comment\n  \"lens\": {\n    \"apperture-mm\": 3\n  }\n}\n");
     expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--config", "key.json"}),
@@ -93,6 +120,9 @@ TEST_F(UsageTest, ConfigFilesNameFileAndLine) {
 TEST_F(UsageTest, TracesNameFileAndLine) {
     write("gaze.csv", "t_s,x,y,valid\n0,0.5,0.5,1\n0.1,0.5,oops,1\n");
     expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--gaze-trace", "gaze.csv"}), {"gaze.csv:3:", "oops"});
+    write("empty.csv", "");
+    expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--gaze-trace", "empty.csv"}),
+                  {"empty.csv: holds no line", "t_s,x,y,valid"});
     write("head.csv", "t_s,x,y,z,qx,qy,qz\n0,0,0,0,0,0,0\n");
     expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--head-trace", "head.csv"}), {"head.csv:1:"});
 }

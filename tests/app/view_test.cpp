@@ -4,21 +4,30 @@
 namespace dioptre::test {
 namespace {
 
-using ViewTest = ProgramTest;
-
-TEST_F(ViewTest, EscapeClosesTheWindowAndLeavesTheLog) {
-    if (runProgram("sh", {"-c", "command -v xvfb-run && command -v xdotool"}).status != 0)
-        GTEST_SKIP() << "xvfb-run or xdotool is not there";
-    leaksAllowed = true;
-    write("steps.sh", R"(
+class ViewTest : public ProgramTest {
+  protected:
+    /// Opens the scene in a window of 320x120, does the steps (a shell script: $window, $program, $drop), and waits until
+    /// the program ends.
+    Outcome view(const std::string& steps) {
+        leaksAllowed = true;
+        write("steps.sh", R"(
 "$1" view scene.gltf --size 160x120 --log log.csv & program=$!
+drop=$2
 for try in $(seq 100); do
     window=$(xdotool search --onlyvisible --name '^Dioptre: .*focus' 2>/dev/null) && break
     kill -0 $program || exit 90
     sleep 0.1
 done
-xdotool getwindowgeometry "$window"
-xdotool windowfocus "$window" mousemove --window "$window" 80 60
+xdotool windowfocus "$window"
+title() { # waits for one that holds $1
+    for try in $(seq 50); do
+        xdotool getwindowname "$window" | grep -F -e "$1" && return
+        sleep 0.1
+    done
+    xdotool getwindowname "$window"
+    exit 91
+}
+)" + steps + R"(
 sleep 0.5
 for try in $(seq 50); do
     kill -0 $program 2>/dev/null || break
@@ -27,14 +36,68 @@ for try in $(seq 50); do
 done
 wait $program
 )");
-    const Outcome outcome =
-        runProgram("xvfb-run", {"-a", "-s", "-screen 0 800x600x24", "sh", "steps.sh", DIOPTRE_PROGRAM});
+        return runProgram("xvfb-run",
+                          {"-a", "-s", "-screen 0 800x600x24", "sh", "steps.sh", DIOPTRE_PROGRAM, DIOPTRE_DROP});
+    }
+
+    void SetUp() override {
+        if (runProgram("sh", {"-c", "command -v xvfb-run && command -v xdotool"}).status != 0)
+            GTEST_SKIP() << "xvfb-run or xdotool is not there";
+    }
+    std::vector<std::string> log() const { return linesOf(read("log.csv")); }
+};
+
+TEST_F(ViewTest, EscapeClosesTheWindowAndLeavesTheLog) {
+    const Outcome outcome = view(R"(
+xdotool getwindowgeometry "$window"
+xdotool mousemove --window "$window" 40 90
+)");
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     EXPECT_THAT(outcome.out, testing::HasSubstr("Geometry: 320x120"));
-    const std::vector<std::string> log = linesOf(read("log.csv"));
-    ASSERT_GE(log.size(), 2u);
-    // The pointer, at a quarter of the width and half the height, is the middle of the left eye's picture.
-    EXPECT_THAT(log.back(), testing::HasSubstr(",0.50000,0.50000,1,"));
+    ASSERT_GE(log().size(), 2u);
+    // A quarter of the left eye's width, three quarters of its height
+    EXPECT_THAT(log().back(), testing::HasSubstr(",0.25000,0.75000,1,"));
+}
+
+TEST_F(ViewTest, AWindowOfAnotherShapeKeepsThePicturesShape) {
+    // 400x400 holds the picture of 320x120 as 400x150, 125 pixels below the top.
+    const Outcome outcome = view(R"(
+xdotool windowsize --sync "$window" 400 400
+xdotool mousemove --window "$window" 250 155
+)");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    // A quarter of the right eye's width, a fifth of its height
+    EXPECT_THAT(log().back(), testing::HasSubstr(",0.25000,0.20000,1,"));
+    const Outcome above = view(R"(
+xdotool windowsize --sync "$window" 400 400
+xdotool mousemove --window "$window" 250 100
+)");
+    ASSERT_EQ(above.status, 0) << above.out << above.err;
+    EXPECT_THAT(log().back(), testing::HasSubstr(",0,,")) << "beside the picture there is no gaze";
+}
+
+TEST_F(ViewTest, ASignalEndsItInOrder) {
+    const Outcome outcome = view("kill -TERM $program");
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_GE(log().size(), 2u);
+}
+
+TEST_F(ViewTest, AFileDroppedIsShownOrRefused) {
+    if (std::string(DIOPTRE_DROP).empty()) GTEST_SKIP() << "built without X11";
+    std::string other = read("scene.gltf");
+    other.insert(other.find("{\"nodes\": [0, 1]"), "{\"name\": \"another\", \"nodes\": [0, 1]}, ");
+    write("scene.another.gltf", other);
+    write("scene.broken.gltf", "{");
+    const Outcome outcome = view(R"(
+"$drop" "$window" scene.broken.gltf
+title 'scene.broken.gltf: JSON'
+kill -0 $program || exit 92
+"$drop" "$window" scene.another.gltf
+title 'Dioptre: another  focus'
+)");
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.err, testing::HasSubstr("error: scene.broken.gltf: JSON: "));
+    EXPECT_EQ(linesOf(outcome.err).size(), 1u) << outcome.err;
 }
 
 TEST_F(ViewTest, WithoutADisplayTheRunFailsInOneLine) {

@@ -201,5 +201,19 @@ TEST_F(CompositorGLTest, NothingIsEncodedOrCut) {
     }
 }
 
+TEST(FittedTest, PicturesKeepTheirShapeInTheMiddleOfTheWindow) {
+    const auto expect = [](const Placement& place, int x, int y, int width, int height) {
+        EXPECT_EQ(place.x, x);
+        EXPECT_EQ(place.y, y);
+        EXPECT_EQ(place.width, width);
+        EXPECT_EQ(place.height, height);
+    };
+    expect(fitted({320, 120}, {320, 120}), 0, 0, 320, 120);
+    expect(fitted({320, 120}, {640, 480}), 0, 120, 640, 240);
+    expect(fitted({320, 120}, {640, 120}), 160, 0, 320, 120);
+    expect(fitted({320, 120}, {160, 120}), 0, 30, 160, 60);
+    expect(fitted({1000, 1}, {10, 10}), 0, 4, 10, 1);
+}
+
 }  // namespace
 }  // namespace dioptre

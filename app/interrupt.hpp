@@ -1,0 +1,14 @@
+// Ctrl-C and its kin: SIGINT, SIGTERM, SIGHUP.
+#pragma once
+
+namespace dioptre {
+
+/// For the start of the program: these signals end it, as they would, but leave no half-written file; one that it was
+/// started to ignore stays ignored. A file that grows too large (SIGXFSZ) becomes an error of the write.
+void handleSignals();
+
+/// From here on the first of these signals only sets interrupted(), for an end in good order; the second ends at once.
+void watchInterrupts();
+bool interrupted();
+
+}  // namespace dioptre
