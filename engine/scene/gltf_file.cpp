@@ -19,8 +19,8 @@ std::uint32_t littleEndian32(const std::uint8_t* bytes) {
            static_cast<std::uint32_t>(bytes[2]) << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
 }
 
-// Depth and number of values are bounded before the parser builds anything.
-void checkJsonSize(std::span<const std::uint8_t> text, const Context& context) {
+// Depth and number of values are bounded, and their memory charged, before the parser builds anything.
+void checkJsonSize(std::span<const std::uint8_t> text, Context& context) {
     int depth = 0;
     std::uint64_t values = 1;
     bool inString = false;
@@ -45,9 +45,11 @@ void checkJsonSize(std::span<const std::uint8_t> text, const Context& context) {
     }
     if (values > context.limits.maxJsonValues)
         context.fail("", fmt::format("JSON: about {} values, the limit is {}", values, context.limits.maxJsonValues));
+    constexpr std::uint64_t kValueBytes = 100;  // with its key, in the maps and lists that hold it
+    context.charge(values * kValueBytes, "JSON");
 }
 
-Json parseJson(std::span<const std::uint8_t> text, const Context& context) {
+Json parseJson(std::span<const std::uint8_t> text, Context& context) {
     checkJsonSize(text, context);
     try {
         return Json::parse(text.begin(), text.end());

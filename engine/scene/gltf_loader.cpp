@@ -162,6 +162,9 @@ class Builder {
             placeOf_[mesh] = static_cast<int>(scene_.meshes.size() - 1);
         }
         const Mesh& drawn = scene_.meshes[static_cast<std::size_t>(placeOf_[mesh])];
+        draws_ += drawn.primitives.size();
+        if (const std::uint64_t limit = node.context().limits.maxDraws; draws_ > limit)
+            node.fail("mesh", fmt::format("is primitive {} to draw, the limit is {}", draws_, limit));
         for (const Primitive& primitive : drawn.primitives) {
             for (int corner = 0; corner < 8; ++corner) {
                 const Bounds& b = primitive.bounds;
@@ -195,6 +198,7 @@ class Builder {
     std::vector<std::optional<Camera>> cameras_;
     std::vector<Light> lights_;
     std::vector<NodeContent> contents_;
+    std::uint64_t draws_ = 0;
     std::vector<int> placeOf_;  // of each mesh in the file, its place in Scene::meshes, or -1
 };
 

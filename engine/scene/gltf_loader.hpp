@@ -29,6 +29,7 @@ struct LoadLimits {
     int maxImageSide = 16384;                  // texels
     int maxNodeDepth = 512;                    // a root has depth 1
     std::uint64_t maxJsonValues = 16'000'000;  // about 100 bytes of memory each
+    std::uint64_t maxDraws = 1'000'000;        // primitives of all instances, some 400 bytes each where they are drawn
     int maxJsonDepth = 128;                    // arrays and objects inside one another
     std::size_t maxWarnings = 100;             // the rest is counted in one last line
 };

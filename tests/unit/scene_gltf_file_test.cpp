@@ -228,12 +228,31 @@ TEST(GltfLimitTest, MemoryIsBoundedBeforeAllocation) {
     expectSays(refusal(gltf), "meshes[0].primitives[0]: needs");
     gltf["accessors"][0]["count"] = 3;
     EXPECT_EQ(refusal(gltf), "");
+    // Values of JSON take memory as well.
+    gltf["extras"] = std::vector<int>(50'000, 1);
+    LoadLimits small;
+    small.maxTotalBytes = 4'000'000;
+    expectSays(refusal(gltf, small), "JSON: needs 500");
     // The same vertices a hundred times.
     gltf = triangleGltf();
     for (int i = 0; i < 100; ++i) gltf["meshes"][0]["primitives"].push_back(gltf["meshes"][0]["primitives"][0]);
     LoadLimits limits;
     limits.maxTotalBytes = 20'000;
     expectSays(refusal(gltf, limits), "bytes are in use");
+}
+
+TEST(GltfLimitTest, DrawsAreCounted) {
+    Json gltf = triangleGltf();
+    gltf["meshes"][0]["primitives"].push_back(gltf["meshes"][0]["primitives"][0]);
+    for (std::size_t i = 1; i < 10; ++i) {
+        gltf["nodes"].push_back({{"mesh", 0}});
+        gltf["scenes"][0]["nodes"].push_back(i);
+    }
+    LoadLimits limits;
+    limits.maxDraws = 20;
+    EXPECT_EQ(refusal(gltf, limits), "");
+    limits.maxDraws = 13;
+    expectSays(refusal(gltf, limits), "nodes[6].mesh: is primitive 14 to draw, the limit is 13");
 }
 
 TEST(GltfLimitTest, WarningsAreCounted) {
