@@ -50,25 +50,32 @@ std::string contentOf(const Scene& scene) {
     for (const Material& m : scene.materials) {
         addFloats(m.baseColor);
         addFloats(m.emissive);
-        for (const float value : {m.metallic, m.roughness, m.normalScale, m.alphaCutoff})
+        for (const float value : {m.metallic, m.roughness, m.normalScale, m.occlusionStrength, m.alphaCutoff})
             hash.add(static_cast<double>(value));
-        hash.add(static_cast<std::uint64_t>((m.alphaMode == AlphaMode::mask ? 1 : 0) + (m.doubleSided ? 2 : 0) +
-                                            (m.unlit ? 4 : 0)));
-        for (const TextureSlot* slot :
-             {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture}) {
+        const int kind[] = {static_cast<int>(m.alphaMode), m.doubleSided, m.unlit};
+        hash.addBytes(kind, sizeof kind);
+        for (const TextureSlot* slot : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
+                                        &m.emissiveTexture, &m.occlusionTexture}) {
             const Sampler& s = slot->sampler;
-            const int fields[] = {slot->image, static_cast<int>(s.wrapS), static_cast<int>(s.wrapT),
-                                  static_cast<int>(s.magnification), static_cast<int>(s.minification)};
+            const int fields[] = {slot->image,
+                                  static_cast<int>(s.wrapS),
+                                  static_cast<int>(s.wrapT),
+                                  static_cast<int>(s.magnification),
+                                  static_cast<int>(s.minification),
+                                  slot->uvSet};
             hash.addBytes(fields, sizeof fields);
+            addFloats(slot->imageFromVertex);
         }
     }
-    static_assert(sizeof(Vertex) == 12 * sizeof(float));
+    static_assert(sizeof(Vertex) == 12 * sizeof(float) && sizeof(VertexExtra) == 16);  // no gaps
     for (const Mesh& mesh : scene.meshes) {
         hash.add(static_cast<std::uint64_t>(mesh.primitives.size()));
         for (const Primitive& primitive : mesh.primitives) {
             addVector(primitive.vertices);
+            addVector(primitive.extras);
             addVector(primitive.indices);
-            hash.add(static_cast<std::uint64_t>(primitive.material));
+            const int fields[] = {static_cast<int>(primitive.topology), primitive.lit, primitive.material};
+            hash.addBytes(fields, sizeof fields);
         }
     }
     for (const Instance& instance : scene.instances) {

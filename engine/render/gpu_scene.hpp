@@ -1,9 +1,20 @@
 // A scene in GPU memory, and the drawing of what a view can see of it.
+//
+// Triangles, lines of 1 px and points of 1 px (glTF 2.0, 3.9.5): their energy is that of a pixel however far they are,
+// so they neither vanish with distance nor outshine in a blur; without normals they are not lit.
+//
+// What is alpha-blended (Material::alphaMode) comes last, over what is opaque and without writing depth: primitive by
+// primitive, the farthest centre first by depth along the view, equal ones as in the scene; of a double-sided one its
+// back before its front. Within a primitive triangles keep the scene's order. Texels that are opaque all the same
+// (scene/base_color.glsl) are drawn with what is opaque, so that surfaces of blended material hide each other
+// wherever they can. Every point of the lens sees the same depths along the view, so one order serves them all.
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -30,14 +41,16 @@ class GpuScene {
     explicit GpuScene(const Scene& scene);
 
     /// Draws what `view` sees to the bound framebuffer: radiance × exposure and depth, or depth alone. The depth
-    /// buffer must have been cleared to 0 (reversed depth).
+    /// buffer must have been cleared to 0 (reversed depth). The depth left is that of the surface which gives the pixel
+    /// most of its light: of a blended one where its alpha is 0.5 or more.
     void drawRadiance(const View& view, float exposure) const;
     void drawDepth(const View& view) const;
 
     /// The same through points of a lens. Prepared once for all of them: what any point of `lens` can see, drawn by
     /// each call as often as it has matrices, matrix i to layer i of the bound layered framebuffer.
     void prepareThroughLens(const View& view, const Lens& lens, int matrices) const;
-    /// Exactly as many matrices as prepared. `lodBias` is added to the level at which textures are read.
+    /// Exactly as many matrices as prepared. `lodBias` is added to the level at which textures are read. Depth is left
+    /// by opaque surfaces only.
     void drawThroughLens(std::span<const glm::mat4> clipFromView, float exposure, float lodBias) const;
 
     /// Of what `view` sees: conservative, from bounding boxes, nearest bounded by the view's near plane.
@@ -48,11 +61,21 @@ class GpuScene {
     std::uint64_t trianglesDrawn() const { return trianglesDrawn_; }
 
   private:
-    // One primitive of one instance.
-    struct Item {
-        std::uint32_t firstIndex = 0, indexCount = 0, baseVertex = 0;
+    // What one call can draw with; in the order that changes least.
+    struct State {
+        bool blended = false;
         std::uint32_t material = 0;
         bool mirrored = false;  // negative determinant: front faces run clockwise
+        bool extras = false;
+        bool lit = true;
+        Topology topology = Topology::triangles;
+
+        auto operator<=>(const State&) const = default;
+    };
+    // One primitive of one instance.
+    struct Item {
+        State state;
+        PrimitiveRange range;
         glm::dmat4 worldFromMesh{1.0};
         Bounds bounds;
     };
@@ -61,17 +84,41 @@ class GpuScene {
         GLuint sampler = 0;
     };
     struct BoundMaterial {
-        std::array<TextureBinding, 4> textures;  // base colour, metallic-roughness, normal, emissive
-        bool lit = false, mask = false, doubleSided = false;
+        std::array<TextureBinding, gpu::kMaterialTextures> textures;
+        AlphaMode alphaMode = AlphaMode::opaque;
+        bool lit = false, doubleSided = false;
+        bool mapped = false;  // a texture is not read at the vertex's first coordinates
+        bool occluded = false;
     };
+    // What is drawn of a surface; `blended`: what the others see through it.
+    enum class Phase { surface, blended, depth };
+    enum class Faces { asMaterial, back, front };
+    // Commands of equal state.
+    struct Run {
+        State state;
+        Faces faces = Faces::asMaterial;
+        std::size_t firstCommand = 0, commandCount = 0;
+        std::uint64_t triangles = 0;
+    };
+    struct Through {
+        std::span<const glm::mat4> clipFromView;
+        float exposure = 1.0f;
+    };
+    struct Preparation;
 
     void uploadGeometry(const Scene& scene);
     void uploadMaterials(const Scene& scene);
+    void makePrograms();
+    unsigned featuresOf(const State& state, Phase phase) const;
     void prepare(const View& view, const Lens* lens, int matrices) const;
-    void draw(std::span<const glm::mat4> clipFromView, float exposure, float lodBias, bool depthOnly) const;
-    const Program& programFor(const BoundMaterial& material, bool depthOnly) const;
+    void append(Preparation& preparation, std::vector<Run>& runs, std::size_t item, Faces faces) const;
+    void setLodBias(float bias) const;
+    void drawBlended(const Through& through) const;
+    void drawRuns(std::span<const Run> runs, Phase phase, const Through& through) const;
+    void bind(const Run& run) const;
 
     std::vector<Item> items_;  // sorted by state
+    std::size_t blendedItems_ = 0;
     std::vector<BoundMaterial> materials_;
     std::vector<Light> lights_;
     float skyRadiance_ = 0.0f;
@@ -79,20 +126,16 @@ class GpuScene {
 
     SceneTextures textures_;
     SceneSamplers samplers_;
-    Buffer vertices_, indices_, drawIndices_, materialBuffer_;
+    Buffer vertices_, extras_, indices_, drawIndices_, materialBuffer_;
     // What the last prepared view sees.
-    struct Run {
-        std::uint32_t material;
-        bool mirrored;
-        std::size_t firstCommand, commandCount;
-    };
-    mutable std::uint64_t triangles_ = 0, trianglesDrawn_ = 0;  // of one draw as prepared; of all draws
-    mutable float lodBias_ = 0.0f;                              // that the samplers have
-    mutable std::vector<Run> runs_;                             // commands of equal state
-    mutable glm::vec3 up_{0.0f};                                // the world's up in view space
+    mutable std::uint64_t trianglesDrawn_ = 0;
+    mutable float lodBias_ = 0.0f;          // that the samplers have
+    mutable std::vector<Run> runs_;         // all, by state: blended ones last
+    mutable std::vector<Run> blendedRuns_;  // of blended ones, the farthest first
+    mutable glm::vec3 up_{0.0f};            // the world's up in view space
     mutable Buffer instances_, lightBuffer_, commands_;
-    VertexArray vertexArray_;
-    Program unlit_, unlitMask_, lit_, litMask_, depth_, depthMask_;
+    VertexArray vertexArray_, extrasVertexArray_;
+    std::map<unsigned, Program> programs_;  // by features
 };
 
 }  // namespace dioptre

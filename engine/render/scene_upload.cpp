@@ -74,6 +74,7 @@ SceneTextures uploadTextures(const Scene& scene) {
         if (m.metallicRoughnessTexture.used()) add(m.metallicRoughnessTexture, TextureUse::data);
         if (m.normalTexture.used()) add(m.normalTexture, TextureUse::normal);
         if (m.emissiveTexture.used()) add(m.emissiveTexture, TextureUse::color);
+        if (m.occlusionTexture.used()) add(m.occlusionTexture, TextureUse::data);
     }
     return textures;
 }
@@ -103,30 +104,67 @@ GLuint samplerFor(SceneSamplers& samplers, const Sampler& sampler) {
     return name;
 }
 
+std::array<const TextureSlot*, gpu::kMaterialTextures> textureSlots(const Material& m) {
+    std::array<const TextureSlot*, gpu::kMaterialTextures> slots{};
+    slots[gpu::kBaseColor] = &m.baseColorTexture;
+    slots[gpu::kMetallicRoughness] = &m.metallicRoughnessTexture;
+    slots[gpu::kNormal] = &m.normalTexture;
+    slots[gpu::kEmissive] = &m.emissiveTexture;
+    slots[gpu::kOcclusion] = &m.occlusionTexture;
+    return slots;
+}
+
+gpu::MaterialData materialData(const Material& m) {
+    // Of a blended surface, from this opacity on it is the one that the pixel's depth is taken from.
+    constexpr float kMostOfTheLight = 0.5f;
+    gpu::MaterialData data{};
+    data.baseColor = m.baseColor;
+    data.emissive = glm::vec4(m.emissive, m.normalScale);
+    data.surface = glm::vec4(m.metallic, m.roughness, m.alphaMode == AlphaMode::blend ? kMostOfTheLight : m.alphaCutoff,
+                             m.normalTexture.used() ? 1.0f : 0.0f);
+    data.light = glm::vec4(m.occlusionStrength, 0.0f, 0.0f, 0.0f);
+    const auto slots = textureSlots(m);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const glm::mat3x2& map = slots[i]->imageFromVertex;
+        data.uvLinear[i] = glm::vec4(map[0], map[1]);
+        data.uvOffset[i] = glm::vec4(map[2], static_cast<float>(slots[i]->uvSet), 0.0f);
+    }
+    return data;
+}
+
 UploadedGeometry uploadMeshes(const Scene& scene) {
     UploadedGeometry all;
-    std::uint32_t vertexCount = 0, indexCount = 0;
     for (const Mesh& mesh : scene.meshes) {
         all.firstPrimitive.push_back(all.primitives.size());
-        for (const Primitive& primitive : mesh.primitives) {
-            const auto indices = static_cast<std::uint32_t>(primitive.indices.size());
-            all.primitives.push_back({indexCount, indices, vertexCount});
+        all.primitives.resize(all.primitives.size() + mesh.primitives.size());
+    }
+    const auto forEach = [&](auto visit) {
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            for (std::size_t p = 0; p < scene.meshes[m].primitives.size(); ++p)
+                visit(scene.meshes[m].primitives[p], all.primitives[all.firstPrimitive[m] + p]);
+    };
+    std::uint32_t vertexCount = 0, indexCount = 0, extraCount = 0;
+    for (const bool extras : {true, false}) {
+        forEach([&](const Primitive& primitive, PrimitiveRange& range) {
+            if (primitive.extras.empty() == extras) return;
+            range = {indexCount, static_cast<std::uint32_t>(primitive.indices.size()), vertexCount};
             vertexCount += static_cast<std::uint32_t>(primitive.vertices.size());
-            indexCount += indices;
-        }
+            indexCount += range.indexCount;
+        });
+        if (extras) extraCount = vertexCount;
     }
     all.vertices = Buffer(vertexCount * sizeof(Vertex), nullptr, true, "vertices");
+    if (extraCount > 0) all.extras = Buffer(extraCount * sizeof(VertexExtra), nullptr, true, "vertices' extras");
     all.indices = Buffer(indexCount * sizeof(std::uint32_t), nullptr, true, "indices");
-    std::size_t next = 0;
-    for (const Mesh& mesh : scene.meshes) {
-        for (const Primitive& primitive : mesh.primitives) {
-            const PrimitiveRange& range = all.primitives[next++];
-            all.vertices.update(primitive.vertices.data(), primitive.vertices.size() * sizeof(Vertex),
-                                range.baseVertex * sizeof(Vertex));
-            all.indices.update(primitive.indices.data(), primitive.indices.size() * sizeof(std::uint32_t),
-                               range.firstIndex * sizeof(std::uint32_t));
-        }
-    }
+    forEach([&](const Primitive& primitive, const PrimitiveRange& range) {
+        all.vertices.update(primitive.vertices.data(), primitive.vertices.size() * sizeof(Vertex),
+                            range.baseVertex * sizeof(Vertex));
+        if (!primitive.extras.empty())
+            all.extras.update(primitive.extras.data(), primitive.extras.size() * sizeof(VertexExtra),
+                              range.baseVertex * sizeof(VertexExtra));
+        all.indices.update(primitive.indices.data(), primitive.indices.size() * sizeof(std::uint32_t),
+                           range.firstIndex * sizeof(std::uint32_t));
+    });
     return all;
 }
 
@@ -155,6 +193,17 @@ void describeVertices(const VertexArray& array, const Buffer& vertices, const Bu
     glEnableVertexArrayAttrib(vao, 4);
     glVertexArrayAttribIFormat(vao, 4, 1, GL_UNSIGNED_INT, 0);
     glVertexArrayAttribBinding(vao, 4, 1);
+}
+
+void describeExtras(const VertexArray& array, const Buffer& extras) {
+    const GLuint vao = array.name();
+    glVertexArrayVertexBuffer(vao, 2, extras.name(), 0, sizeof(VertexExtra));
+    glVertexArrayAttribFormat(vao, 5, 2, GL_FLOAT, GL_FALSE, offsetof(VertexExtra, uv));
+    glVertexArrayAttribFormat(vao, 6, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(VertexExtra, color));
+    for (const GLuint attribute : {5u, 6u}) {
+        glEnableVertexArrayAttrib(vao, attribute);
+        glVertexArrayAttribBinding(vao, attribute, 2);
+    }
 }
 
 gpu::LightData lightInView(const Light& light, const glm::dmat4& viewFromWorld) {

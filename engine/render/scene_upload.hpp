@@ -1,6 +1,7 @@
 // From a scene's plain data to what the GPU reads: textures, samplers, one vertex and one index buffer.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -28,12 +29,16 @@ const Texture& findTexture(const SceneTextures& textures, int image, TextureUse 
 /// The sampler object for a description, made on first use.
 GLuint samplerFor(SceneSamplers& samplers, const Sampler& sampler);
 
+std::array<const TextureSlot*, gpu::kMaterialTextures> textureSlots(const Material& material);
+gpu::MaterialData materialData(const Material& material);
+
 struct PrimitiveRange {
     std::uint32_t firstIndex, indexCount, baseVertex;
 };
-/// All primitives one after another; mesh i's are primitives[firstPrimitive[i]] and on.
+/// All primitives one after another, those with extras first, so that `extras` is as long as they need; mesh i's are
+/// primitives[firstPrimitive[i]] and on.
 struct UploadedGeometry {
-    Buffer vertices, indices;
+    Buffer vertices, extras, indices;
     std::vector<PrimitiveRange> primitives;
     std::vector<std::size_t> firstPrimitive;
 };
@@ -41,6 +46,8 @@ struct UploadedGeometry {
 UploadedGeometry uploadMeshes(const Scene& scene);
 void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices,
                       const Buffer& drawIndices);
+/// Adds them to an array described before.
+void describeExtras(const VertexArray& array, const Buffer& extras);
 
 gpu::LightData lightInView(const Light& light, const glm::dmat4& viewFromWorld);
 /// The light of a scene that brings none: from above, the right and behind the default viewer.

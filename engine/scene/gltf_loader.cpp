@@ -30,6 +30,7 @@ constexpr std::array kExtensions{
     KnownExtension{"KHR_materials_emissive_strength", true},
     KnownExtension{"KHR_lights_punctual", true},
     KnownExtension{"KHR_mesh_quantization", true},
+    KnownExtension{"KHR_texture_transform", true},
     KnownExtension{"KHR_draco_mesh_compression", false, kUncompressed},
     KnownExtension{"EXT_meshopt_compression", false, kUncompressed},
     KnownExtension{"KHR_meshopt_compression", false, kUncompressed},
@@ -37,7 +38,6 @@ constexpr std::array kExtensions{
     KnownExtension{"EXT_texture_webp", false, kPlainImages},
     KnownExtension{"EXT_texture_avif", false, kPlainImages},
     KnownExtension{"MSFT_texture_dds", false, kPlainImages},
-    KnownExtension{"KHR_texture_transform", false, "re-export with the transform baked into the texture coordinates"},
 };
 
 const KnownExtension* known(std::string_view name) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/gltf_uri.hpp"
 
@@ -57,6 +58,18 @@ Sampler readSampler(const Element& element) {
             element.fail("minFilter", fmt::format("is {}, must be 9728, 9729 or 9984 to 9987", code));
     }
     return sampler;
+}
+
+// KHR_texture_transform: scaled, turned, then moved.
+glm::mat3x2 readTransform(const Element& transform) {
+    const std::vector<float> offset = transform.numbers("offset", 2), scale = transform.numbers("scale", 2);
+    const float rotation = transform.number("rotation", 0.0f);
+    const float c = std::cos(rotation), s = std::sin(rotation);
+    glm::mat3x2 m(1.0f);
+    m[0] = glm::vec2(c, -s) * (scale.empty() ? 1.0f : scale[0]);
+    m[1] = glm::vec2(s, c) * (scale.empty() ? 1.0f : scale[1]);
+    if (!offset.empty()) m[2] = glm::vec2(offset[0], offset[1]);
+    return m;
 }
 
 class Reader {
@@ -124,15 +137,23 @@ int Reader::drawnImage(std::size_t number) {
 
 TextureSlot Reader::readSlot(const Element& info, MaterialNeeds& needs) {
     const Texture& texture = textures_[info.requiredIndex("index", textures_.size(), "textures")];
-    const std::uint64_t uvSet = info.whole("texCoord", 0);
+    std::uint64_t uvSet = info.whole("texCoord", 0);
+    TextureSlot slot;
+    if (const auto transform = info.extension("KHR_texture_transform")) {
+        slot.imageFromVertex = readTransform(*transform);
+        uvSet = transform->whole("texCoord", uvSet);
+    }
     if (!texture.image) return {};
-    if (needs.uv && uvSet != needs.uvSet) {
-        info.warn("texCoord", "differs from the material's first texture: ignored, not drawn");
+    auto place = std::find(needs.uvSets.begin(), needs.uvSets.end(), uvSet);
+    if (place == needs.uvSets.end() && needs.uvSets.size() == 2) {
+        info.warn("texCoord", "is a third set of texture coordinates in one material: ignored, not drawn");
         return {};
     }
-    needs.uv = true;
-    needs.uvSet = uvSet;
-    return {drawnImage(*texture.image), texture.sampler};
+    if (place == needs.uvSets.end()) place = needs.uvSets.insert(place, uvSet);
+    slot.uvSet = static_cast<int>(place - needs.uvSets.begin());
+    slot.image = drawnImage(*texture.image);
+    slot.sampler = texture.sampler;
+    return slot;
 }
 
 // Factors beyond their range are drawn at its end.
@@ -160,8 +181,8 @@ Material Reader::readMaterial(const Element& element, MaterialNeeds& needs) {
     }
     material.emissiveTexture = readSlot(element.find("emissiveTexture"), needs);
     if (const auto info = element.find("occlusionTexture")) {
-        info->requiredIndex("index", textures_.size(), "textures");
-        info->warn("is ignored");
+        material.occlusionTexture = readSlot(*info, needs);
+        material.occlusionStrength = clampedFactor(*info, "strength", info->number("strength", 1.0f));
     }
 
     const std::vector<float> emissive = element.numbers("emissiveFactor", 3);
@@ -184,8 +205,7 @@ Material Reader::readMaterial(const Element& element, MaterialNeeds& needs) {
         if (material.alphaCutoff < 0.0f)
             element.fail("alphaCutoff", fmt::format("is {}, must not be negative", material.alphaCutoff));
     } else if (mode == "BLEND") {
-        material.alphaMode = AlphaMode::mask;
-        element.warn("alphaMode", "BLEND is drawn as MASK at 0.5");
+        material.alphaMode = AlphaMode::blend;
     } else if (mode != "OPAQUE") {
         element.fail("alphaMode", fmt::format("is \"{}\", must be OPAQUE, MASK or BLEND", printable(mode)));
     }

@@ -8,9 +8,8 @@ namespace dioptre::gltf {
 
 /// What a material asks of the vertices it is put on.
 struct MaterialNeeds {
-    bool uv = false;          // has a texture
-    bool tangent = false;     // has a normal map
-    std::uint64_t uvSet = 0;  // which TEXCOORD_n it reads
+    bool tangent = false;               // has a normal map
+    std::vector<std::uint64_t> uvSets;  // which TEXCOORD_n it reads: Vertex::uv, VertexExtra::uv
 };
 
 struct Materials {

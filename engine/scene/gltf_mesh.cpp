@@ -12,7 +12,7 @@
 namespace dioptre::gltf {
 namespace {
 
-constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+constexpr std::uint64_t kPoints = 0, kLines = 1, kLineLoop = 2, kLineStrip = 3, kTriangles = 4, kStrip = 5, kFan = 6;
 
 bool declares(const Element& root, std::string_view extension) {
     const List used = root.list("extensionsUsed");
@@ -32,22 +32,46 @@ std::uint32_t restartValue(ComponentType type) {
     }
 }
 
-std::size_t triangleCount(std::uint64_t mode, std::size_t corners) {
-    if (mode == kTriangles) return corners / 3;
-    return corners < 3 ? 0 : corners - 2;
+Topology topologyOf(std::uint64_t mode) {
+    if (mode == kPoints) return Topology::points;
+    return mode < kTriangles ? Topology::lines : Topology::triangles;
 }
 
-// glTF 2.0, 3.7.2.1: the corners of triangle i in a strip or fan, wound as the first.
-std::vector<std::uint32_t> asTriangles(std::uint64_t mode, std::vector<std::uint32_t> corners) {
-    const std::size_t count = triangleCount(mode, corners.size());
-    if (mode == kTriangles) {
-        corners.resize(count * 3);
+std::string_view nounOf(Topology topology) {
+    return topology == Topology::points ? "point" : topology == Topology::lines ? "line" : "triangle";
+}
+
+// Of the points, lines or triangles that so many corners make, how many indices.
+std::size_t indexCount(std::uint64_t mode, std::size_t corners) {
+    switch (mode) {
+        case kPoints:
+            return corners;
+        case kLines:
+            return corners / 2 * 2;
+        case kLineLoop:
+            return corners < 2 ? 0 : corners * 2;
+        case kLineStrip:
+            return corners < 2 ? 0 : (corners - 1) * 2;
+        case kTriangles:
+            return corners / 3 * 3;
+        default:
+            return corners < 3 ? 0 : (corners - 2) * 3;
+    }
+}
+
+// glTF 2.0, 3.7.2.1: the corners of line or triangle i in a loop, strip or fan, wound as the first.
+std::vector<std::uint32_t> asList(std::uint64_t mode, std::vector<std::uint32_t> corners) {
+    const std::size_t count = indexCount(mode, corners.size());
+    if (mode == kPoints || mode == kLines || mode == kTriangles) {
+        corners.resize(count);
         return corners;
     }
     std::vector<std::uint32_t> out;
-    out.reserve(count * 3);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (mode == kStrip)
+    out.reserve(count);
+    for (std::size_t i = 0; out.size() < count; ++i) {
+        if (mode == kLineLoop || mode == kLineStrip)
+            out.insert(out.end(), {corners[i], corners[(i + 1) % corners.size()]});
+        else if (mode == kStrip)
             out.insert(out.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
         else
             out.insert(out.end(), {corners[i + 1], corners[i + 2], corners[0]});
@@ -58,10 +82,9 @@ std::vector<std::uint32_t> asTriangles(std::uint64_t mode, std::vector<std::uint
 // Numbers of a vertex, wherever they stand in it.
 struct VertexPart {
     float* first;  // of the first vertex
-    std::size_t count, components;
+    std::size_t step, count, components;
 
-    static constexpr std::size_t kStep = sizeof(Vertex) / sizeof(float);
-    float* of(std::size_t vertex) const { return first + vertex * kStep; }
+    float* of(std::size_t vertex) const { return first + vertex * step; }
 };
 
 void checkFinite(const VertexPart& part, const Accessor& accessor, const Element& owner, std::string_view key) {
@@ -100,10 +123,16 @@ struct MeshReader::Plan {
     std::uint64_t mode = kTriangles;
     std::size_t material = 0;
     MaterialNeeds needs;
-    std::optional<std::size_t> indices, position, normal, tangent, uv;  // accessors
-    std::string uvName;                                                 // "TEXCOORD_0"
+    std::optional<std::size_t> indices, position, normal, tangent, color;  // accessors
+    std::array<std::optional<std::size_t>, 2> uv;
+    std::array<std::string, 2> uvName;  // "TEXCOORD_0"; empty where the material reads one set
     std::size_t vertexCount = 0, cornerCount = 0;
     bool drawn = false;
+
+    Topology topology() const { return topologyOf(mode); }
+    bool hasExtras() const { return color || uv[1]; }
+    std::size_t indexCount() const { return gltf::indexCount(mode, cornerCount); }
+    std::uint64_t vertexBytes() const { return sizeof(Vertex) + (hasExtras() ? sizeof(VertexExtra) : 0); }
 };
 
 MeshReader::MeshReader(const Element& root, const Accessors& accessors, const Materials& materials)
@@ -118,20 +147,23 @@ MeshReader::MeshReader(const Element& root, const Accessors& accessors, const Ma
 }
 
 void MeshReader::checkAttribute(const Element& attributes, const std::string& semantic, const Accessor& a) const {
-    const bool isUv = semantic.starts_with("TEXCOORD_");
+    const bool isUv = semantic.starts_with("TEXCOORD_"), isColor = semantic.starts_with("COLOR_");
     const std::string_view type = isUv ? "VEC2" : semantic == "TANGENT" ? "VEC4" : "VEC3";
     const bool small = sizeOf(a.component) < 4;
     const bool isSigned = a.component == ComponentType::byte || a.component == ComponentType::shortInt;
-    const bool plain = a.component == ComponentType::floating || (isUv && small && !isSigned && a.normalized);
-    const bool quantized = small && (isUv || semantic == "POSITION" || (isSigned && a.normalized));
-    if (a.type != type) attributes.fail(semantic, fmt::format("is {}, must be {}", a.type, type));
+    const bool plain =
+        a.component == ComponentType::floating || ((isUv || isColor) && small && !isSigned && a.normalized);
+    const bool quantized = small && !isColor && (isUv || semantic == "POSITION" || (isSigned && a.normalized));
+    if (isColor && a.type != "VEC3" && a.type != "VEC4")
+        attributes.fail(semantic, fmt::format("is {}, must be VEC3 or VEC4", a.type));
+    if (!isColor && a.type != type) attributes.fail(semantic, fmt::format("is {}, must be {}", a.type, type));
     if (plain || (quantized && quantized_)) return;
     const std::string_view normalized = a.normalized ? "normalized " : "";
     if (quantized)
         attributes.fail(semantic, fmt::format("is {}{}, which needs KHR_mesh_quantization in extensionsUsed",
                                               normalized, nameOf(a.component)));
     attributes.fail(semantic, fmt::format("is {}{}, must be FLOAT{}", normalized, nameOf(a.component),
-                                          isUv ? ", normalized UNSIGNED_BYTE or UNSIGNED_SHORT" : ""));
+                                          isUv || isColor ? ", normalized UNSIGNED_BYTE or UNSIGNED_SHORT" : ""));
 }
 
 MeshReader::Plan MeshReader::plan(const Element& primitive) const {
@@ -141,10 +173,12 @@ MeshReader::Plan MeshReader::plan(const Element& primitive) const {
     const std::size_t fileMaterials = materials_.materials.size() - 1;
     plan.material = primitive.index("material", fileMaterials, "materials").value_or(fileMaterials);
     plan.needs = materials_.needs[plan.material];
-    plan.uvName = fmt::format("TEXCOORD_{}", plan.needs.uvSet);
+    const std::vector<std::uint64_t>& sets = plan.needs.uvSets;
+    plan.uvName[0] = fmt::format("TEXCOORD_{}", sets.empty() ? 0 : sets[0]);
+    if (sets.size() > 1) plan.uvName[1] = fmt::format("TEXCOORD_{}", sets[1]);
     planAttributes(primitive.object("attributes"), plan);
     planIndices(primitive, plan);
-    plan.drawn = plan.position && plan.mode >= kTriangles && triangleCount(plan.mode, plan.cornerCount) > 0;
+    plan.drawn = plan.position && plan.indexCount() > 0;
     return plan;
 }
 
@@ -157,12 +191,14 @@ void MeshReader::planAttributes(const Element& attributes, Plan& plan) const {
             attributes.fail(semantic,
                             fmt::format("has {} elements, another attribute {}", accessor.count, plan.vertexCount));
         if (semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" ||
-            semantic.starts_with("TEXCOORD_"))
+            semantic.starts_with("TEXCOORD_") || semantic.starts_with("COLOR_"))
             checkAttribute(attributes, semantic, accessor);
         if (semantic == "POSITION") plan.position = number;
         if (semantic == "NORMAL") plan.normal = number;
         if (semantic == "TANGENT") plan.tangent = number;
-        if (semantic == plan.uvName) plan.uv = number;
+        if (semantic == "COLOR_0") plan.color = number;
+        for (std::size_t set = 0; set < 2; ++set)
+            if (semantic == plan.uvName[set]) plan.uv[set] = number;
     }
 }
 
@@ -183,18 +219,16 @@ void MeshReader::planIndices(const Element& primitive, Plan& plan) const {
 
 void MeshReader::warnOfOmissions(const Element& primitive, const Plan& plan) const {
     const Element attributes = primitive.object("attributes");
-    for (const auto& [semantic, value] : attributes.json().items()) {
-        if (semantic.starts_with("COLOR_")) attributes.warn(semantic, "vertex colour is ignored");
-        if (semantic.starts_with("TEXCOORD_") && semantic != plan.uvName)
-            attributes.warn(semantic, "a second set of texture coordinates is ignored");
-    }
+    for (const auto& [semantic, value] : attributes.json().items())
+        if (semantic.starts_with("COLOR_") && semantic != "COLOR_0")
+            attributes.warn(semantic, "a second vertex colour is ignored");
     if (!plan.position) primitive.warn("has no POSITION: not drawn");
-    if (plan.mode < kTriangles) primitive.warn("mode", plan.mode == 0 ? "points are not drawn" : "lines are not drawn");
-    if (plan.mode >= kTriangles && triangleCount(plan.mode, plan.cornerCount) == 0)
-        primitive.warn("has no whole triangle: not drawn");
-    if (plan.drawn && plan.mode == kTriangles && plan.cornerCount % 3 != 0)
-        primitive.warn("the last triangle is incomplete and left out");
-    if (plan.drawn && plan.needs.uv && !plan.uv) attributes.warn(plan.uvName, "is missing: textures are read at 0, 0");
+    const std::string_view noun = nounOf(plan.topology());
+    if (plan.indexCount() == 0) primitive.warn(fmt::format("has no whole {}: not drawn", noun));
+    if (plan.drawn && (plan.mode == kTriangles || plan.mode == kLines) && plan.cornerCount != plan.indexCount())
+        primitive.warn(fmt::format("the last {} is incomplete and left out", noun));
+    for (std::size_t set = 0; plan.drawn && set < plan.needs.uvSets.size(); ++set)
+        if (!plan.uv[set]) attributes.warn(plan.uvName[set], "is missing: textures are read at 0, 0");
     if (!primitive.list("targets").empty()) primitive.warn("targets", "morph targets are ignored");
 }
 
@@ -219,24 +253,28 @@ std::optional<Primitive> MeshReader::readPrimitive(const Element& element) const
     // All that is allocated below, before it is. What passes: an attribute being read or the sums of computeTangents,
     // and the corners of strips.
     constexpr std::uint64_t kPassingBytes = 6 * sizeof(double);
-    const std::uint64_t triangles = triangleCount(plan.mode, plan.cornerCount);
-    const std::uint64_t kept = plan.vertexCount * sizeof(Vertex) + triangles * 3 * sizeof(std::uint32_t);
+    const std::uint64_t indices = plan.indexCount();
+    const std::uint64_t kept = plan.vertexCount * plan.vertexBytes() + indices * sizeof(std::uint32_t);
     const std::uint64_t passing = plan.vertexCount * kPassingBytes + plan.cornerCount * sizeof(std::uint32_t);
     context.charge(kept + passing, element.path());
 
     Primitive primitive;
     primitive.material = static_cast<int>(plan.material);
+    primitive.topology = plan.topology();
+    // glTF 2.0, 3.9.5: points and lines without normals are not lit
+    primitive.lit = plan.normal || primitive.topology == Topology::triangles;
+    const bool flat = !plan.normal && primitive.topology == Topology::triangles;
     readIndices(plan, element, primitive);
     readVertices(plan, attributes, primitive);
-    if (plan.normal) {
-        readNormals(plan, attributes, primitive);
-    } else {
-        context.charge(triangles * 3 * (sizeof(Vertex) + kPassingBytes), element.path());
+    if (plan.hasExtras()) readExtras(plan, attributes, primitive);
+    if (plan.normal) readNormals(plan, attributes, primitive);
+    if (flat) {
+        context.charge(indices * (plan.vertexBytes() + kPassingBytes), element.path());
         makeFlat(primitive);
-        context.release(plan.vertexCount * sizeof(Vertex));
+        context.release(plan.vertexCount * plan.vertexBytes());
     }
     readTangents(plan, attributes, primitive);
-    if (!plan.normal) context.release(triangles * 3 * kPassingBytes);
+    if (flat) context.release(indices * kPassingBytes);
     context.release(passing);
     return primitive;
 }
@@ -257,27 +295,39 @@ void MeshReader::readIndices(const Plan& plan, const Element& element, Primitive
         corners.resize(plan.vertexCount);
         for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
     }
-    out.indices = asTriangles(plan.mode, std::move(corners));
+    out.indices = asList(plan.mode, std::move(corners));
 }
 
-float* MeshReader::readAttribute(std::size_t accessor, const Element& attributes, std::string_view key,
-                                 std::vector<Vertex>& vertices, std::size_t offset, std::size_t components) const {
-    float* first = reinterpret_cast<float*>(reinterpret_cast<std::uint8_t*>(vertices.data()) + offset);
-    accessors_.readFloats(accessor, attributes.pathOf(key), first, VertexPart::kStep);
-    checkFinite({first, vertices.size(), components}, accessors_.use(accessor, ""), attributes, key);
-    return first;
+template <typename Holder>
+void MeshReader::readAttribute(std::size_t accessor, const Element& attributes, std::string_view key,
+                               std::vector<Holder>& vertices, std::size_t offset) const {
+    const VertexPart part{reinterpret_cast<float*>(reinterpret_cast<std::uint8_t*>(vertices.data()) + offset),
+                          sizeof(Holder) / sizeof(float), vertices.size(), accessors_.use(accessor, "").components};
+    accessors_.readFloats(accessor, attributes.pathOf(key), part.first, part.step);
+    checkFinite(part, accessors_.use(accessor, ""), attributes, key);
 }
 
 void MeshReader::readVertices(const Plan& plan, const Element& attributes, Primitive& out) const {
     out.vertices.resize(plan.vertexCount);
-    readAttribute(*plan.position, attributes, "POSITION", out.vertices, offsetof(Vertex, position), 3);
+    readAttribute(*plan.position, attributes, "POSITION", out.vertices, offsetof(Vertex, position));
     for (const Vertex& vertex : out.vertices) out.bounds.add(vertex.position);
     checkDeclaredBounds(accessors_.use(*plan.position, ""), out.bounds, attributes, "POSITION");
-    if (plan.uv) readAttribute(*plan.uv, attributes, plan.uvName, out.vertices, offsetof(Vertex, uv), 2);
+    if (plan.uv[0]) readAttribute(*plan.uv[0], attributes, plan.uvName[0], out.vertices, offsetof(Vertex, uv));
+}
+
+void MeshReader::readExtras(const Plan& plan, const Element& attributes, Primitive& out) const {
+    out.extras.resize(plan.vertexCount);
+    if (plan.uv[1]) readAttribute(*plan.uv[1], attributes, plan.uvName[1], out.extras, offsetof(VertexExtra, uv));
+    if (!plan.color) return;
+    std::vector<glm::vec4> colors(plan.vertexCount, glm::vec4(1.0f));
+    readAttribute(*plan.color, attributes, "COLOR_0", colors, 0);
+    // glTF 2.0, 3.7.2.1: vertex colours are clamped
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        out.extras[i].color = glm::u16vec4(glm::clamp(colors[i], 0.0f, 1.0f) * 65535.0f + 0.5f);
 }
 
 void MeshReader::readNormals(const Plan& plan, const Element& attributes, Primitive& out) const {
-    readAttribute(*plan.normal, attributes, "NORMAL", out.vertices, offsetof(Vertex, normal), 3);
+    readAttribute(*plan.normal, attributes, "NORMAL", out.vertices, offsetof(Vertex, normal));
     std::vector<bool> missing;
     for (std::size_t i = 0; i < plan.vertexCount; ++i) {
         // In double precision, where no finite float's square overflows or vanishes.
@@ -297,8 +347,14 @@ void MeshReader::readNormals(const Plan& plan, const Element& attributes, Primit
 
 void MeshReader::readTangents(const Plan& plan, const Element& attributes, Primitive& out) const {
     if (!plan.needs.tangent) return;
-    if (!plan.tangent || !plan.normal) return computeTangents(out);
-    readAttribute(*plan.tangent, attributes, "TANGENT", out.vertices, offsetof(Vertex, tangent), 4);
+    if (!plan.tangent || !plan.normal) {
+        if (out.topology == Topology::triangles)
+            return computeTangents(out, materials_.materials[plan.material].normalTexture);
+        // glTF 2.0, 3.9.5: points and lines without tangents have no normal map, nor does a tangent of no length
+        for (Vertex& vertex : out.vertices) vertex.tangent = glm::vec4(0.0f);
+        return;
+    }
+    readAttribute(*plan.tangent, attributes, "TANGENT", out.vertices, offsetof(Vertex, tangent));
     for (Vertex& vertex : out.vertices) {
         const glm::dvec3 tangent(vertex.tangent);
         const double length = glm::length(tangent);

@@ -1,4 +1,4 @@
-// Meshes: attributes and indices to triangles with complete vertices. Internal to the glTF loader.
+// Meshes: attributes and indices to points, lines or triangles with complete vertices. Internal to the glTF loader.
 #pragma once
 
 #include "scene/gltf_material.hpp"
@@ -23,10 +23,12 @@ class MeshReader {
     void checkAttribute(const Element& attributes, const std::string& semantic, const Accessor& accessor) const;
     std::optional<Primitive> readPrimitive(const Element& primitive) const;
     void readIndices(const Plan& plan, const Element& primitive, Primitive& out) const;
-    /// An accessor's numbers into each vertex, `offset` bytes from its start; where they are in the first one.
-    float* readAttribute(std::size_t accessor, const Element& attributes, std::string_view key,
-                         std::vector<Vertex>& vertices, std::size_t offset, std::size_t components) const;
+    /// An accessor's numbers into each vertex (or extra), `offset` bytes from its start.
+    template <typename Holder>
+    void readAttribute(std::size_t accessor, const Element& attributes, std::string_view key,
+                       std::vector<Holder>& vertices, std::size_t offset) const;
     void readVertices(const Plan& plan, const Element& attributes, Primitive& out) const;
+    void readExtras(const Plan& plan, const Element& attributes, Primitive& out) const;
     void readNormals(const Plan& plan, const Element& attributes, Primitive& out) const;
     void readTangents(const Plan& plan, const Element& attributes, Primitive& out) const;
 

@@ -151,6 +151,7 @@ std::vector<PlacedNode> placeNodes(const Element& root, std::string& sceneName) 
         roots = std::move(sceneRoots);
         if (const auto name = scenes[i].text("name"); name && !name->empty()) sceneName = *name;
     }
+    if (scenes.size() > 1) root.warn("scenes", fmt::format("scene {} of {} is drawn, no other", drawn, scenes.size()));
     if (scenes.empty())
         for (std::size_t i = 0; i < tree.size(); ++i)
             if (tree.isRoot(i)) roots.push_back(i);

@@ -12,7 +12,7 @@ std::size_t Scene::triangleCount() const {
     std::size_t count = 0;
     for (const Instance& instance : instances)
         for (const Primitive& primitive : meshes[static_cast<std::size_t>(instance.mesh)].primitives)
-            count += primitive.indices.size() / 3;
+            count += primitive.triangleCount();
     return count;
 }
 
@@ -30,7 +30,8 @@ std::size_t Scene::bytes() const {
     for (const TextureImage& image : images) sum += image.rgba.size();
     for (const Mesh& mesh : meshes)
         for (const Primitive& primitive : mesh.primitives)
-            sum += primitive.vertices.size() * sizeof(Vertex) + primitive.indices.size() * sizeof(std::uint32_t);
+            sum += primitive.vertices.size() * sizeof(Vertex) + primitive.extras.size() * sizeof(VertexExtra) +
+                   primitive.indices.size() * sizeof(std::uint32_t);
     return sum;
 }
 
@@ -40,6 +41,7 @@ void Scene::releaseBulk() {
     for (Mesh& mesh : meshes) {
         for (Primitive& primitive : mesh.primitives) {
             primitive.vertices = std::vector<Vertex>();
+            primitive.extras = std::vector<VertexExtra>();
             primitive.indices = std::vector<std::uint32_t>();
         }
     }

@@ -47,25 +47,31 @@ struct Sampler {
 struct TextureSlot {
     int image = -1;
     Sampler sampler;
+    int uvSet = 0;                      // 0: Vertex::uv, 1: VertexExtra::uv
+    glm::mat3x2 imageFromVertex{1.0f};  // on (u, v, 1): scale, rotation, offset (KHR_texture_transform)
 
+    /// Where the vertices' coordinates are the image's.
+    bool plain() const { return uvSet == 0 && imageFromVertex == glm::mat3x2(1.0f); }
     bool used() const { return image >= 0; }
     bool operator==(const TextureSlot&) const = default;
 };
 
-enum class AlphaMode { opaque, mask };
+enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1.0f};  // linear, times the sRGB base colour texture
+    glm::vec4 baseColor{1.0f};  // linear, times the sRGB base colour texture, times the vertex colour
     float metallic = 1.0f;      // times the texture's blue
     float roughness = 1.0f;     // times the texture's green
     glm::vec3 emissive{0.0f};   // linear radiance, emissive strength folded in, times the sRGB emissive texture
     float normalScale = 1.0f;
+    float occlusionStrength = 1.0f;  // 0: none of the texture's red
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  // mask: texels below it are not there
     bool doubleSided = false;
     bool unlit = false;  // base colour is the radiance
     TextureSlot baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture;
+    TextureSlot occlusionTexture;  // red darkens the sky's light, not that of lamps
 };
 
 struct Vertex {
@@ -75,12 +81,25 @@ struct Vertex {
     glm::vec2 uv{0.0f};
 };
 
-/// Indexed triangles with one material (index into Scene::materials).
+/// What few vertices have; beside them, so that the many stay small.
+struct VertexExtra {
+    glm::vec2 uv{0.0f};          // the second set
+    glm::u16vec4 color{0xFFFF};  // linear, 0..65535 for 0..1, opacity last
+};
+
+enum class Topology { points, lines, triangles };
+
+/// Indexed points, lines or triangles with one material (index into Scene::materials).
 struct Primitive {
     std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices;  // 3 per triangle, all < vertices.size()
+    std::vector<VertexExtra> extras;     // one per vertex, or none
+    std::vector<std::uint32_t> indices;  // 1 per point, 2 per line, 3 per triangle; all < vertices.size()
+    Topology topology = Topology::triangles;
+    bool lit = true;  // false: points or lines without normals, their radiance is base colour + emission
     int material = 0;
     Bounds bounds;  // in mesh space
+
+    std::size_t triangleCount() const { return topology == Topology::triangles ? indices.size() / 3 : 0; }
 };
 
 struct Mesh {
@@ -127,10 +146,10 @@ struct Scene {
     std::vector<std::string> warnings;  // what was ignored, one line each
 
     std::size_t triangleCount() const;  // over instances
-    std::size_t bytes() const;          // of vertices, indices and texels
+    std::size_t bytes() const;          // of vertices, extras, indices and texels
     float brightestEmission() const;    // the most that a channel of an emissive or unlit material may have
 
-    /// Frees vertices, indices and texels once they are where they are drawn from; what is left tells of the rest.
+    /// Frees vertices, extras, indices and texels once they are where they are drawn from; what is left tells of the rest.
     void releaseBulk();
 };
 

@@ -34,6 +34,11 @@ glm::vec3 anyOrthogonal(const glm::vec3& n) {
 void makeFlat(Primitive& primitive) {
     std::vector<Vertex> unshared;
     unshared.reserve(primitive.indices.size());
+    std::vector<VertexExtra> extras;
+    if (!primitive.extras.empty()) {
+        extras.reserve(primitive.indices.size());
+        for (const std::uint32_t index : primitive.indices) extras.push_back(primitive.extras[index]);
+    }
     for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
         const glm::vec3 normal = unitOr(faceNormal(primitive, i), glm::vec3(0, 0, 1));
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -42,12 +47,13 @@ void makeFlat(Primitive& primitive) {
         }
     }
     primitive.vertices = std::move(unshared);
+    primitive.extras = std::move(extras);
     for (std::size_t i = 0; i < primitive.indices.size(); ++i) primitive.indices[i] = static_cast<std::uint32_t>(i);
 }
 
 void fillNormals(Primitive& primitive, const std::vector<bool>& missing) {
     std::vector<glm::dvec3> sums(primitive.vertices.size(), glm::dvec3(0.0));
-    for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+    for (std::size_t i = 0; i + 2 < primitive.indices.size() && primitive.topology == Topology::triangles; i += 3) {
         const glm::dvec3 normal = faceNormal(primitive, i);
         for (std::size_t corner = 0; corner < 3; ++corner) sums[primitive.indices[i + corner]] += normal;
     }
@@ -55,7 +61,13 @@ void fillNormals(Primitive& primitive, const std::vector<bool>& missing) {
         if (missing[v]) primitive.vertices[v].normal = unitOr(sums[v], glm::vec3(0, 0, 1));
 }
 
-void computeTangents(Primitive& primitive) {
+void computeTangents(Primitive& primitive, const TextureSlot& slot) {
+    const bool second = slot.uvSet == 1 && !primitive.extras.empty();
+    const glm::dmat3x2 imageFromVertex(slot.imageFromVertex);
+    const auto uvOf = [&](std::uint32_t i) {
+        const glm::vec2& uv = second ? primitive.extras[i].uv : primitive.vertices[i].uv;
+        return imageFromVertex * glm::dvec3(uv, 1.0);
+    };
     struct Gradients {
         glm::dvec3 u{0.0}, v{0.0};
     };
@@ -67,7 +79,7 @@ void computeTangents(Primitive& primitive) {
                      &c = primitive.vertices[corner[2]];
         const glm::dvec3 e1 = glm::dvec3(b.position) - glm::dvec3(a.position);
         const glm::dvec3 e2 = glm::dvec3(c.position) - glm::dvec3(a.position);
-        const glm::dvec2 d1 = glm::dvec2(b.uv) - glm::dvec2(a.uv), d2 = glm::dvec2(c.uv) - glm::dvec2(a.uv);
+        const glm::dvec2 uv = uvOf(corner[0]), d1 = uvOf(corner[1]) - uv, d2 = uvOf(corner[2]) - uv;
         // e = du * T + dv * B for both edges; solved for T and B up to the determinant, of which only the sign counts.
         const double determinant = d1.x * d2.y - d2.x * d1.y;
         if (determinant == 0.0) continue;

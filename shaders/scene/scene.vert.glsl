@@ -9,24 +9,27 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in uint drawIndex;  // one per draw, by the base instance
+#ifdef EXTRAS
+layout(location = 5) in vec2 uv1;
+layout(location = 6) in vec4 color;
+#endif
 
 layout(std430, binding = 0) readonly buffer Instances { InstanceData instances[]; };
 
 uniform mat4 clipFromView[kMostMatrices];
 
-out Surface {
-    vec3 viewPosition;
-    vec3 normal;
-    vec4 tangent;
-    vec2 uv;
-} surface;
-flat out uint material;
+#define STAGE out
+#include "scene/varyings.glsl"
 
 void main() {
     mat4 viewFromMesh = instances[drawIndex].viewFromMesh;
     material = instances[drawIndex].material.x;
     vec4 viewPosition = viewFromMesh * vec4(position, 1.0);
     surface.uv = uv;
+#ifdef EXTRAS
+    surface.uv1 = uv1;
+    surface.color = color;
+#endif
 #ifdef LIT
     surface.viewPosition = viewPosition.xyz;
     // Cofactors: right for any scale, its sign included.

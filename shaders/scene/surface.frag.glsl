@@ -1,22 +1,14 @@
 // Radiance of a surface: unlit, or metallic-roughness under punctual lights and a soft sky (glTF 2.0, appendix B).
-#include "shared/scene_types.h"
+// Without LIT the base colour is the radiance; with EMISSIVE the emission is added to it, as to a lit one.
+#include "scene/base_color.glsl"
 #include "scene/brdf.glsl"
 
-in Surface {
-    vec3 viewPosition;
-    vec3 normal;
-    vec4 tangent;
-    vec2 uv;
-} surface;
-flat in uint material;
-
-layout(std430, binding = 1) readonly buffer Materials { MaterialData materials[]; };
 layout(std430, binding = 2) readonly buffer Lights { LightData lights[]; };
 
-layout(binding = 0) uniform sampler2D baseColorTexture;
 layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 2) uniform sampler2D normalTexture;
 layout(binding = 3) uniform sampler2D emissiveTexture;
+layout(binding = 4) uniform sampler2D occlusionTexture;
 
 uniform int lightCount;
 uniform vec4 up;           // xyz: the world's up in view space; w: the sky's radiance at the zenith
@@ -32,7 +24,7 @@ vec3 shadingNormal(MaterialData m) {
         if (dot(t, t) > 1e-20) {
             t = normalize(t);
             vec3 b = cross(n, t) * surface.tangent.w;
-            vec3 local = texture(normalTexture, surface.uv).xyz * 2.0 - 1.0;
+            vec3 local = texture(normalTexture, uvOf(kNormal)).xyz * 2.0 - 1.0;
             local.xy *= m.emissive.w;
             n = normalize(mat3(t, b, n) * local);
         }
@@ -41,13 +33,17 @@ vec3 shadingNormal(MaterialData m) {
 }
 
 vec3 lit(MaterialData m, vec3 baseColor) {
-    vec4 mr = texture(metallicRoughnessTexture, surface.uv);
+    vec4 mr = texture(metallicRoughnessTexture, uvOf(kMetallicRoughness));
     float metallic = m.surface.x * mr.b;
     float roughness = m.surface.y * mr.g;
     vec3 n = shadingNormal(m);
     vec3 v = normalize(-surface.viewPosition);
     Reflectance r = reflectance(baseColor, metallic, roughness, max(dot(n, v), 1e-4));
     vec3 sum = r.diffuse * sky(n, up) + r.environment * sky(reflect(-v, n), up);
+#ifdef OCCLUSION
+    // glTF 2.0, 3.9.3: of indirect light only
+    sum *= 1.0 + m.light.x * (texture(occlusionTexture, uvOf(kOcclusion)).r - 1.0);
+#endif
     for (int i = 0; i < lightCount; ++i) {
         vec3 l;
         vec3 irradiance = incoming(lights[i], surface.viewPosition, n, l);
@@ -59,15 +55,18 @@ vec3 lit(MaterialData m, vec3 baseColor) {
 
 void main() {
     MaterialData m = materials[material];
-    vec4 baseColor = m.baseColor * texture(baseColorTexture, surface.uv);
-#ifdef MASK
-    if (baseColor.a < m.surface.z) discard;
-#endif
+    vec4 baseColor = baseColorOf(m);
 #ifdef LIT
-    vec3 color = lit(m, baseColor.rgb) + m.emissive.rgb * texture(emissiveTexture, surface.uv).rgb;
+    vec3 color = lit(m, baseColor.rgb);
 #else
     vec3 color = baseColor.rgb;
 #endif
+#if defined(LIT) || defined(EMISSIVE)
+    color += m.emissive.rgb * texture(emissiveTexture, uvOf(kEmissive)).rgb;
+#endif
     // Half floats end at 65504; NaN (0/0 in a degenerate triangle) becomes 0 by the order of max's arguments.
     radiance = vec4(min(max(vec3(0.0), color * exposure), vec3(65504.0)), 1.0);
+#ifdef BLEND
+    radiance *= baseColor.a;  // premultiplied: what is behind keeps 1 - alpha
+#endif
 }

@@ -11,6 +11,10 @@ using glm::vec4;
 // Lens samples that one submission of the geometry can draw, each to a layer.
 const int kMostMatrices = 4;
 
+// A material's textures, in the order of their units.
+const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kEmissive = 3, kOcclusion = 4;
+const int kMaterialTextures = 5;
+
 struct InstanceData {
     mat4 viewFromMesh;  // eye-relative, so that a scene far from the origin keeps its digits
     uvec4 material;     // x: index into the materials
@@ -20,6 +24,10 @@ struct MaterialData {
     vec4 baseColor;
     vec4 emissive;  // rgb: radiance; w: normal map's scale
     vec4 surface;   // x: metallic, y: roughness, z: alpha cut-off, w: 1 if a normal map is used
+    vec4 light;     // x: occlusion's strength
+    // How each texture is read (KHR_texture_transform): uv = mat2(xy, zw) * the vertex's + xy, its second set if z is 1.
+    vec4 uvLinear[kMaterialTextures];
+    vec4 uvOffset[kMaterialTextures];
 };
 
 struct LightData {
@@ -30,6 +38,6 @@ struct LightData {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(InstanceData) == 80 && sizeof(MaterialData) == 48 && sizeof(LightData) == 64);
+static_assert(sizeof(InstanceData) == 80 && sizeof(MaterialData) == 224 && sizeof(LightData) == 64);
 }  // namespace dioptre::gpu
 #endif

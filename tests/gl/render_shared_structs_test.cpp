@@ -38,7 +38,7 @@ class SharedStructsGLTest : public GlTest {
     }
 
   private:
-    Program program_{"scene/scene.vert.glsl", "scene/surface.frag.glsl", {"LIT"}};
+    Program program_{"scene/scene.vert.glsl", "scene/surface.frag.glsl", {"LIT", "MAPPED", "OCCLUSION"}};
 };
 
 TEST_F(SharedStructsGLTest, InstanceData) {
@@ -57,6 +57,13 @@ TEST_F(SharedStructsGLTest, MaterialData) {
     expectMember("materials[0].baseColor", offsetof(MaterialData, baseColor), stride, GL_FLOAT_VEC4);
     expectMember("materials[0].emissive", offsetof(MaterialData, emissive), stride, GL_FLOAT_VEC4);
     expectMember("materials[0].surface", offsetof(MaterialData, surface), stride, GL_FLOAT_VEC4);
+    expectMember("materials[0].light", offsetof(MaterialData, light), stride, GL_FLOAT_VEC4);
+    expectMember("materials[0].uvLinear[0]", offsetof(MaterialData, uvLinear), stride, GL_FLOAT_VEC4);
+    expectMember("materials[0].uvOffset[0]", offsetof(MaterialData, uvOffset), stride, GL_FLOAT_VEC4);
+    for (const char* array : {"materials[0].uvLinear[0]", "materials[0].uvOffset[0]"}) {
+        EXPECT_EQ(ask(array, GL_ARRAY_SIZE), gpu::kMaterialTextures) << array;
+        EXPECT_EQ(ask(array, GL_ARRAY_STRIDE), static_cast<GLint>(sizeof(glm::vec4))) << array;
+    }
     EXPECT_EQ(binding("Materials"), 1);
 }
 

@@ -312,9 +312,16 @@ TEST(MeasureContentTest, EveryChangeOfASceneIsAnotherContent) {
     changed([](Scene& s) { s.images[0].width = 2; });
     changed([](Scene& s) { s.materials[0].roughness = 0.5f; });
     changed([](Scene& s) { s.materials[0].doubleSided = true; });
+    changed([](Scene& s) { s.materials[0].alphaMode = AlphaMode::blend; });
+    changed([](Scene& s) { s.materials[0].occlusionStrength = 0.5f; });
     changed([](Scene& s) { s.materials[0].normalTexture.image = 0; });
+    changed([](Scene& s) { s.materials[0].occlusionTexture.uvSet = 1; });
+    changed([](Scene& s) { s.materials[0].baseColorTexture.imageFromVertex[2].x = 0.5f; });
     changed([](Scene& s) { s.meshes[0].primitives[0].vertices[2].uv.y = 1.0f; });
+    changed([](Scene& s) { s.meshes[0].primitives[0].extras.resize(3); });
     changed([](Scene& s) { s.meshes[0].primitives[0].indices[0] = 1; });
+    changed([](Scene& s) { s.meshes[0].primitives[0].topology = Topology::points; });
+    changed([](Scene& s) { s.meshes[0].primitives[0].lit = false; });
     changed([](Scene& s) { s.instances[0].worldFromMesh[3].x = 1.0f; });
     changed([](Scene& s) { s.lights[0].range = 1.0f; });
     changed([](Scene& s) { s.lights.clear(); });

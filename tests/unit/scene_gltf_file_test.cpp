@@ -258,14 +258,14 @@ TEST(GltfLimitTest, DrawsAreCounted) {
 TEST(GltfLimitTest, WarningsAreCounted) {
     Json gltf = triangleGltf();
     for (int i = 0; i < 10; ++i) gltf["extensionsUsed"].push_back("EXT_" + std::to_string(i));
-    for (int i = 0; i < 3; ++i) gltf["materials"].push_back({{"alphaMode", "BLEND"}});
+    for (int i = 0; i < 3; ++i) gltf["materials"].push_back({{"emissiveFactor", {2, 0, 0}}});
     LoadLimits limits;
     limits.maxWarnings = 10;
     const Scene scene = load(gltf, limits);
     ASSERT_EQ(scene.warnings.size(), 11u);
     EXPECT_EQ(scene.warnings[9], "extensionsUsed[9]: EXT_9 is ignored");
     EXPECT_EQ(scene.warnings[10], "3 more warnings");
-    EXPECT_EQ(load(gltf).warnings.back(), "materials[1].alphaMode: BLEND is drawn as MASK at 0.5 (and 2 more)");
+    EXPECT_EQ(load(gltf).warnings.back(), "materials[1].emissiveFactor: a factor outside 0..1 is clamped (and 2 more)");
 }
 
 }  // namespace

@@ -62,12 +62,115 @@ TEST(GltfLoaderTest, StripsAndFansBecomeTriangles) {
     const Scene rest = load(fiveVertices(4));
     EXPECT_EQ(indices(rest), (std::vector<std::uint32_t>{0, 1, 2}));
     EXPECT_TRUE(warns(rest, "meshes[0].primitives[0]: the last triangle is incomplete"));
+}
+
+TEST(GltfLoaderTest, PointsAndLines) {
+    const std::vector<std::uint32_t> expected[] = {
+        {0, 1, 2, 3, 4}, {0, 1, 2, 3}, {0, 1, 1, 2, 2, 3, 3, 4, 4, 0}, {0, 1, 1, 2, 2, 3, 3, 4}};
     for (const int mode : {0, 1, 2, 3}) {
-        const Scene none = load(fiveVertices(mode));
-        EXPECT_TRUE(none.meshes[0].primitives.empty());
-        EXPECT_TRUE(none.bounds.empty());
-        EXPECT_TRUE(warns(none, mode == 0 ? "points are not drawn" : "lines are not drawn"));
+        SCOPED_TRACE(mode);
+        Json gltf = fiveVertices(mode);
+        const Scene scene = load(gltf);
+        const Primitive& primitive = scene.meshes[0].primitives[0];
+        EXPECT_EQ(primitive.indices, expected[mode]);
+        EXPECT_EQ(primitive.topology, mode == 0 ? Topology::points : Topology::lines);
+        EXPECT_TRUE(primitive.lit);
+        EXPECT_EQ(scene.triangleCount(), 0u);
+        EXPECT_EQ(scene.bounds.max, glm::vec3(1, 2, 0));
+        EXPECT_EQ(warns(scene, "the last line is incomplete"), mode == 1);
+        attributesOf(gltf).erase("NORMAL");
+        const Scene unlit = load(gltf);
+        EXPECT_FALSE(unlit.meshes[0].primitives[0].lit);
+        EXPECT_EQ(unlit.meshes[0].primitives[0].vertices.size(), 5u);  // none made flat
+        gltf["meshes"][0]["primitives"][0]["indices"] =
+            addAccessor(gltf, bytesOf<std::uint8_t>({3}), 5121, "SCALAR", 1);
+        EXPECT_EQ(load(gltf).meshes[0].primitives.size(), mode == 0 ? 1u : 0u);
+        EXPECT_EQ(warns(load(gltf), "has no whole line: not drawn"), mode != 0);
     }
+}
+
+TEST(GltfLoaderTest, LinesWithoutTangentsHaveNoNormalMap) {
+    Json gltf = texturedGltf();
+    gltf["materials"][0]["normalTexture"] = {{"index", 0}};
+    gltf["meshes"][0]["primitives"][0]["mode"] = 3;
+    gltf["buffers"][1]["uri"] = dataUri(bytesOf<float>({0, 3, 0, 0, 0, 0, 0, 0, 1}));
+    const Primitive without = load(gltf).meshes[0].primitives[0];
+    for (const Vertex& vertex : without.vertices) EXPECT_EQ(vertex.tangent, glm::vec4(0));
+    EXPECT_EQ(without.vertices[1].normal, glm::vec3(0, 0, 1)) << "no faces to take it from";
+    attributesOf(gltf)["TANGENT"] =
+        addAccessor(gltf, bytesOf<float>({0, 1, 0, -1, 0, 1, 0, 1, 1, 0, 0, 1}), 5126, "VEC4", 3);
+    EXPECT_EQ(load(gltf).meshes[0].primitives[0].vertices[0].tangent, glm::vec4(0, 1, 0, -1));
+}
+
+TEST(GltfLoaderTest, VertexColours) {
+    const std::vector<glm::u16vec4> expected{{0xFFFF, 0, 0x3333, 0xFFFF}, {0, 0xFFFF, 0, 0xFFFF}, {0, 0, 0, 0xFFFF}};
+    const auto colors = [](const Json& gltf) {
+        std::vector<glm::u16vec4> all;
+        for (const VertexExtra& extra : load(gltf).meshes[0].primitives[0].extras) all.push_back(extra.color);
+        return all;
+    };
+    Json gltf = triangleGltf();
+    EXPECT_TRUE(load(gltf).meshes[0].primitives[0].extras.empty());
+    const auto add = [&](const std::string& bytes, int component, const std::string& type) {
+        attributesOf(gltf)["COLOR_0"] = addAccessor(gltf, bytes, component, type, 3);
+        if (component != 5126) gltf["accessors"].back()["normalized"] = true;
+    };
+    // Beyond 0..1 they are clamped.
+    add(bytesOf<float>({1, 0, 0.2f, -1, 7, 0, 0, 0, 0}), 5126, "VEC3");
+    EXPECT_EQ(colors(gltf), expected);
+    add(bytesOf<float>({1, 0, 0.2f, 1, 0, 1, 0, 1, 0, 0, 0, 1}), 5126, "VEC4");
+    EXPECT_EQ(colors(gltf), expected);
+    add(bytesOf<std::uint8_t>({255, 0, 51, 255, 0, 255, 0, 255, 0, 0, 0, 255}), 5121, "VEC4");
+    EXPECT_EQ(colors(gltf), expected);
+    add(bytesOf<std::uint16_t>({65535, 0, 13107, 0, 65535, 0, 0, 0, 0}), 5123, "VEC3");
+    EXPECT_EQ(colors(gltf), expected);
+    gltf["accessors"].back()["normalized"] = false;
+    EXPECT_TRUE(contains(refusal(gltf), "COLOR_0: is UNSIGNED_SHORT, must be FLOAT, normalized UNSIGNED_BYTE"));
+    add(bytesOf<float>({1, 0, 0, 1, 0, 1}), 5126, "VEC2");
+    EXPECT_TRUE(contains(refusal(gltf), "COLOR_0: is VEC2, must be VEC3 or VEC4"));
+    // Unshared vertices keep theirs.
+    add(bytesOf<float>({1, 0, 0.2f, 0, 1, 0, 0, 0, 0}), 5126, "VEC3");
+    attributesOf(gltf).erase("NORMAL");
+    gltf["meshes"][0]["primitives"][0]["indices"] =
+        addAccessor(gltf, bytesOf<std::uint8_t>({0, 1, 2, 2, 1, 0}), 5121, "SCALAR", 6);
+    const std::vector<glm::u16vec4> flat = colors(gltf);
+    ASSERT_EQ(flat.size(), 6u);
+    EXPECT_EQ(flat[3], expected[2]);
+    EXPECT_EQ(flat[5], expected[0]);
+}
+
+TEST(GltfLoaderTest, TextureTransforms) {
+    Json gltf = texturedGltf();
+    gltf["extensionsUsed"] = gltf["extensionsRequired"] = {"KHR_texture_transform"};
+    Json& texture = gltf["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    texture["texCoord"] = 3;
+    texture["extensions"]["KHR_texture_transform"] = Json::parse(R"({"offset": [10, 20], "scale": [2, 3],
+        "rotation": 1.5707963, "texCoord": 0})");
+    gltf["materials"][0]["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}, {"texCoord", 3}};
+    const Scene scene = load(gltf);
+    const Material& m = scene.materials[0];
+    const TextureSlot& slot = m.baseColorTexture;
+    EXPECT_EQ(slot.uvSet, 0);
+    EXPECT_FALSE(slot.plain());
+    // The extension's own example: a quarter turn takes u to -v and v to u.
+    const glm::vec2 u = slot.imageFromVertex * glm::vec3(1, 0, 1), v = slot.imageFromVertex * glm::vec3(0, 1, 1);
+    expectNear(glm::vec3(u, 0), {10, 18, 0});
+    expectNear(glm::vec3(v, 0), {13, 20, 0});
+    EXPECT_EQ(m.occlusionTexture.uvSet, 1);
+    EXPECT_EQ(m.occlusionStrength, 0.25f);
+    EXPECT_TRUE(warns(scene, "attributes.TEXCOORD_3: is missing"));
+    EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST(GltfLoaderTest, TangentsFollowTheNormalMapsCoordinates) {
+    Json gltf = texturedGltf();
+    gltf["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
+    // u along y, v along -x
+    attributesOf(gltf)["TEXCOORD_1"] = addAccessor(gltf, bytesOf<float>({0, 0, 0, -1, 1, 0}), 5126, "VEC2", 3);
+    EXPECT_EQ(load(gltf).meshes[0].primitives[0].vertices[0].tangent, glm::vec4(0, 1, 0, -1));
+    // Mirrored: u along -y
+    gltf["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {{"scale", {-1, 1}}};
+    EXPECT_EQ(load(gltf).meshes[0].primitives[0].vertices[0].tangent, glm::vec4(0, -1, 0, 1));
 }
 
 TEST(GltfLoaderTest, MissingNormalsAreFlat) {
@@ -143,11 +246,9 @@ TEST(GltfLoaderTest, MaterialFields) {
 TEST(GltfLoaderTest, WhatIsIgnoredIsSaid) {
     Json gltf = texturedGltf();
     gltf["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_texture_transform", "KHR_lights_punctual"};
-    gltf["materials"][0]["alphaMode"] = "BLEND";
-    gltf["materials"][0]["occlusionTexture"] = {{"index", 0}};
     gltf["materials"][0]["emissiveFactor"] = {2, 0, 0};
-    attributesOf(gltf)["TEXCOORD_1"] = 2;
-    attributesOf(gltf)["COLOR_0"] = 0;
+    attributesOf(gltf)["COLOR_1"] = 0;
+    gltf["scenes"].push_back(Json::object());
     gltf["meshes"][0]["primitives"][0]["targets"] = Json::array({Json::object()});
     gltf["skins"] = Json::array({Json::object()});
     gltf["nodes"][0]["skin"] = 0;
@@ -156,17 +257,12 @@ TEST(GltfLoaderTest, WhatIsIgnoredIsSaid) {
     const Scene scene = load(gltf);
     for (const char* line :
          {"extensionsUsed[0]: KHR_materials_clearcoat is ignored",
-          "extensionsUsed[1]: KHR_texture_transform is ignored",
-          "materials[0].alphaMode: BLEND is drawn as MASK at 0.5", "materials[0].occlusionTexture: is ignored",
           "materials[0].emissiveFactor: a factor outside 0..1 is clamped",
-          "meshes[0].primitives[0].attributes.TEXCOORD_1: a second set of texture coordinates is ignored",
-          "meshes[0].primitives[0].attributes.COLOR_0: vertex colour is ignored",
-          "meshes[0].primitives[0].targets: morph targets are ignored", "nodes[0].skin: is ignored",
-          "animations: are ignored", "cameras[0]: orthographic cameras are ignored"})
+          "meshes[0].primitives[0].attributes.COLOR_1: a second vertex colour is ignored",
+          "scenes: scene 0 of 2 is drawn, no other", "meshes[0].primitives[0].targets: morph targets are ignored",
+          "nodes[0].skin: is ignored", "animations: are ignored", "cameras[0]: orthographic cameras are ignored"})
         EXPECT_TRUE(warns(scene, line)) << line;
-    EXPECT_EQ(scene.warnings.size(), 11u);
-    EXPECT_EQ(scene.materials[0].alphaMode, AlphaMode::mask);
-    EXPECT_EQ(scene.materials[0].alphaCutoff, 0.5f);
+    EXPECT_EQ(scene.warnings.size(), 8u);
 }
 
 TEST(GltfLoaderTest, TextureCoordinatesOfTheMaterialsSet) {
@@ -177,8 +273,14 @@ TEST(GltfLoaderTest, TextureCoordinatesOfTheMaterialsSet) {
     gltf["materials"][0]["emissiveTexture"] = {{"index", 0}};
     const Scene scene = load(gltf);
     EXPECT_EQ(scene.meshes[0].primitives[0].vertices[0].uv, glm::vec2(7, 8));
-    EXPECT_FALSE(scene.materials[0].emissiveTexture.used());
-    EXPECT_TRUE(warns(scene, "materials[0].emissiveTexture.texCoord: differs"));
+    EXPECT_EQ(scene.materials[0].baseColorTexture.uvSet, 0);
+    EXPECT_EQ(scene.materials[0].emissiveTexture.uvSet, 1);
+    EXPECT_EQ(scene.meshes[0].primitives[0].extras[1].uv, glm::vec2(1, 0));
+    EXPECT_TRUE(scene.warnings.empty());
+    gltf["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 2}};
+    const Scene third = load(gltf);
+    EXPECT_FALSE(third.materials[0].emissiveTexture.used());
+    EXPECT_TRUE(warns(third, "materials[0].emissiveTexture.texCoord: is a third set"));
 }
 
 TEST(GltfLoaderTest, Images) {
