@@ -1,4 +1,5 @@
-// Everything sharp: the price and the picture that all other techniques are compared with.
+// Everything sharp, also what is seen through blended surfaces: the price and the picture that all other techniques are
+// compared with.
 #pragma once
 
 #include "render/geometry_pass.hpp"

@@ -3,6 +3,8 @@
 //
 // Each sample has its own sub-pixel jitter, so edges are antialiased and msaa is not used. Sums are 32-bit floats.
 // Textures are read finer as the samples grow: the samples filter them, a level of 1/2 log2 N is theirs.
+// Blended surfaces are blended at each point of the lens, over what is seen through them from there: every surface has
+// its own blur, before and behind focus.
 // The sequence nests: more samples only add to the picture. Memory does not grow with their number.
 #pragma once
 
