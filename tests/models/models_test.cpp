@@ -164,7 +164,7 @@ TEST_F(ModelsGLTest, OtherModelsDraw) {
             Shot shot;
             shot.view = framedView(scene.bounds, {320, 240});
             const Image picture = draw(choice, gpu, shot);
-            EXPECT_GT(pixelsDrawn(picture), picture.width * picture.height / 50) << nameOf(choice);
+            EXPECT_GT(pixelsDrawn(picture), picture.width * picture.height / 50) << techniqueName(choice);
         }
         bool colored = false;
         for (const Mesh& mesh : scene.meshes)
