@@ -14,14 +14,7 @@ layout(binding = 0) uniform sampler2D baseColorTexture;
 /// Where one of the material's textures is read.
 vec2 uvOf(int slot) {
 #ifdef MAPPED
-    vec4 offset = materials[material].uvOffset[slot];
-    vec4 linear = materials[material].uvLinear[slot];
-#ifdef EXTRAS
-    vec2 uv = offset.z > 0.5 ? surface.uv1 : surface.uv;
-#else
-    vec2 uv = offset.z > 0.5 ? vec2(0.0) : surface.uv;
-#endif
-    return linear.xy * uv.x + linear.zw * uv.y + offset.xy;
+    return surface.uv[slot];
 #else
     return surface.uv;
 #endif

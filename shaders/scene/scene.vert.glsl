@@ -15,6 +15,9 @@ layout(location = 6) in vec4 color;
 #endif
 
 layout(std430, binding = 0) readonly buffer Instances { InstanceData instances[]; };
+#ifdef MAPPED
+layout(std430, binding = 1) readonly buffer Materials { MaterialData materials[]; };
+#endif
 
 uniform mat4 clipFromView[kMostMatrices];
 
@@ -25,9 +28,22 @@ void main() {
     mat4 viewFromMesh = instances[drawIndex].viewFromMesh;
     material = instances[drawIndex].material.x;
     vec4 viewPosition = viewFromMesh * vec4(position, 1.0);
-    surface.uv = uv;
+#ifdef MAPPED
+    // Not per pixel: pixels of a quad that a triangle does not cover may read no buffer, and the level of a texture
+    // hangs on them.
+    for (int slot = 0; slot < kMaterialTextures; ++slot) {
+        vec4 linear = materials[material].uvLinear[slot], offset = materials[material].uvOffset[slot];
 #ifdef EXTRAS
-    surface.uv1 = uv1;
+        vec2 from = offset.z > 0.5 ? uv1 : uv;
+#else
+        vec2 from = offset.z > 0.5 ? vec2(0.0) : uv;
+#endif
+        surface.uv[slot] = linear.xy * from.x + linear.zw * from.y + offset.xy;
+    }
+#else
+    surface.uv = uv;
+#endif
+#ifdef EXTRAS
     surface.color = color;
 #endif
 #ifdef LIT

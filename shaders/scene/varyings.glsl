@@ -3,9 +3,12 @@ STAGE Surface {
     vec3 viewPosition;
     vec3 normal;
     vec4 tangent;
+#ifdef MAPPED
+    vec2 uv[kMaterialTextures];  // where each texture is read
+#else
     vec2 uv;
+#endif
 #ifdef EXTRAS
-    vec2 uv1;
     vec4 color;
 #endif
 } surface;
