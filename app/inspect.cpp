@@ -9,6 +9,7 @@
 #include "frame/frame_maker.hpp"
 #include "gl/context.hpp"
 #include "optics/lens.hpp"
+#include "scene/animation.hpp"
 
 namespace dioptre {
 
@@ -38,6 +39,12 @@ std::string sceneText(const Scene& scene) {
                             glm::degrees(scene.cameras[i].yfovRadians), scene.cameras[i].nearMetres);
     text += scene.lights.empty() ? "lights     none: a soft sky and one key light\n"
                                  : fmt::format("lights     {}\n", scene.lights.size());
+    if (scene.motion) {
+        const std::vector<Animation>& animations = scene.motion->animations;
+        for (std::size_t i = 0; i < animations.size(); ++i)
+            text += fmt::format("animation {} {}, {:.4g} s, {} channels\n", i, animations[i].name, animations[i].length,
+                                animations[i].channels.size());
+    }
     if (!scene.warnings.empty()) text += fmt::format("ignored    {} warnings, above\n", scene.warnings.size());
     return text;
 }
@@ -91,7 +98,9 @@ void runInspect(const Command& command) {
     FrameMaker maker(scene, command.settings);
     const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
     scene.releaseBulk();
-    const FrameReport& frame = maker.make({});
+    FrameMaker::Input input;
+    input.time = command.settings.view.time;
+    const FrameReport& frame = maker.make(input);
     std::fputs((text + lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
 }
 

@@ -162,6 +162,7 @@ void addExamples(CLI::App& app) {
         "Examples:\n"
         "  dioptre render my.glb --out both.png --aperture-mm 8 --gaze 0.3,0.6\n"
         "  dioptre render my.glb --out left.exr --eye left --focus 1.5 --size 1280x960\n"
+        "  dioptre render my.glb --out later.png --time 2.5\n"
         "  dioptre render my.glb --out folder --frames 90 --gaze-trace gaze.csv --log frames.csv");
     app.get_subcommand("view")->footer(
         "Examples:\n"

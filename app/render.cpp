@@ -36,14 +36,17 @@ void runRender(const Command& command) {
                                    lens.lens.focus.value + lens.residual.value, lens.lens.focus.value));
     };
     if (!sequence) {
-        shown.push_back(maker.make({}));
+        FrameMaker::Input input;
+        input.time = command.settings.view.time;
+        shown.push_back(maker.make(input));
         warnIfLimited(shown.back().lens);
         writeImage(command.out, maker.composed());
     } else {
         makeFolder(command.out, "--out");
         if (!command.log.empty()) requireWritableName(command.log);
         watchInterrupts();
-        shown = renderSequence(maker, {scene.name, command.frames, command.fps, command.out, interrupted});
+        shown = renderSequence(
+            maker, {scene.name, command.frames, command.fps, command.out, command.settings.view.time, interrupted});
         if (!shown.empty())
             logInfo(fmt::format("{} frames in {}, to look at: {}", shown.size(), command.out.string(),
                                 (command.out / "index.html").string()));

@@ -76,7 +76,7 @@ class Viewer {
         glfwSetDropCallback(window_.handle(), [](GLFWwindow* window, int count, const char** paths) {
             if (count > 0) static_cast<Viewer*>(glfwGetWindowUserPointer(window))->dropped_ = paths[0];
         });
-        start_ = glfwGetTime();
+        start_ = glfwGetTime() - settings().view.time;
     }
 
     const Settings& settings() const { return command_.settings; }

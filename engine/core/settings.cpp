@@ -140,6 +140,13 @@ std::vector<Setting> makeTable() {
              .help = "where the head is: position in metres and quaternion; not given: where the camera is",
              .form = "x,y,z,qx,qy,qz,qw",
              .limits = "finite, quaternion not 0"}),
+        row<&S::view, &View::time>(
+            {.group = "view",
+             .name = "time",
+             .help = "moment of the scene's animations and of the traces; where a sequence or a window begins",
+             .unit = "s",
+             .min = 0.0,
+             .max = 1e6}),
         row<&S::view, &View::size>({.group = "view",
                                     .name = "size",
                                     .help = "size of ONE eye's picture; side by side is twice as wide",

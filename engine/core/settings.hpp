@@ -59,6 +59,7 @@ struct ViewSettings {
     double ipdMm = 63.0;
     DisplayChoice display = DisplayChoice::sideBySide;
     bool swapEyes = false;
+    double time = 0.0;  // seconds: of a picture; where a sequence or a window begins
     std::optional<double> screenWidthMm;
     std::optional<double> screenDistanceMm;
 };

@@ -11,6 +11,7 @@
 #include "core/resources.hpp"
 #include "core/text.hpp"
 #include "focus/stereo_rig.hpp"
+#include "scene/placement.hpp"
 
 namespace dioptre {
 
@@ -128,6 +129,7 @@ glm::dvec2 gazeDegrees(const View& view, glm::dvec2 gaze) {
 FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     : settings_(requireDrawable(settings)),
       scene_(scene),
+      motion_(scene.motion),
       start_(startView(scene, settings.view)),
       preset_(loadLensPreset(lensFile(settings.lens.lens))),
       conditions_(conditionsOf(settings.lens)),
@@ -141,12 +143,22 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     if (const double brightest = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
         brightest > kMostRadiance)
         reportCut(fmt::format("a material emits {:.3g} at this exposure", brightest));
+    if (const Camera* camera = startCamera(scene, settings.view); camera && camera->node >= 0) camera_ = *camera;
 }
 
 void FrameMaker::reportCut(const std::string& what) const {
     if (std::exchange(cutReported_, true)) return;
     logWarning(fmt::format("{}: light beyond {:.0f}, the most that half floats hold, is cut; lower --exposure", what,
                            kMostRadiance));
+}
+
+void FrameMaker::moveScene(double time) {
+    if (!motion_) return;
+    const MotionPose pose = poseAt(*motion_, time);
+    scene_.pose(pose, report_.passes);
+    if (!camera_) return;
+    place(*camera_, glm::mat4(pose.worldFromNode[static_cast<std::size_t>(camera_->node)]));
+    start_.pose = poseOf(*camera_);
 }
 
 GazeSample FrameMaker::gazeNow(const Input& input) const {
@@ -221,6 +233,8 @@ const FrameReport& FrameMaker::make(const Input& input) {
     report_.time = input.time;
     report_.gaze = gazeNow(input);
     report_.underGaze.reset();
+
+    moveScene(input.time);
 
     // Head pose and gaze, depth at the gaze, focus
     const View head = headView(input);

@@ -33,9 +33,12 @@ struct FrameReport {
 
 /// A view of the whole scene from its front, for scenes without a camera.
 View framedView(const Bounds& bounds, PictureSize size);
-/// The view that settings ask for: --pose, else --camera, else the first camera, else the whole scene.
+/// The view that settings ask for: --pose, else --camera, else the first camera, else the whole scene. At time 0.
 /// InputError for a camera that is not there (naming those that are).
 View startView(const Scene& scene, const ViewSettings& settings);
+/// The camera that such a view has its place from; none where it has it from --pose or from the scene's box.
+const Camera* startCamera(const Scene& scene, const ViewSettings& settings);
+Pose poseOf(const Camera& camera);
 
 class FrameMaker {
   public:
@@ -53,6 +56,7 @@ class FrameMaker {
         // More than 0: a technique that can refine a still view does so within this time, from frame to frame.
         double budgetMilliseconds = 0.0;
     };
+    /// What moves in the scene is where it is at the input's time, the start view's camera included.
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.
     const FrameReport& make(const Input& input);
@@ -61,7 +65,7 @@ class FrameMaker {
     Image composed() const;  // warns, once, of radiance that half floats could not hold
     void present(PictureSize window);
 
-    const View& startingView() const { return start_; }
+    const View& startingView() const { return start_; }  // of the last frame's time
     std::size_t techniqueBytes() const;
     const GpuScene& scene() const { return scene_; }
 
@@ -74,6 +78,7 @@ class FrameMaker {
 
     /// Warns, once.
     void reportCut(const std::string& what) const;
+    void moveScene(double time);
     GazeSample gazeNow(const Input& input) const;
     View headView(const Input& input) const;
     void placeEyes(const View& head);
@@ -88,7 +93,9 @@ class FrameMaker {
 
     Settings settings_;
     GpuScene scene_;
+    std::shared_ptr<const Motion> motion_;
     View start_;
+    std::optional<Camera> camera_;  // that start_ moves with
     LensPreset preset_;
     LensConditions conditions_;
     std::vector<GazeSample> gazeTrace_;

@@ -21,7 +21,7 @@ namespace dioptre {
 struct MeasureRequest {
     std::filesystem::path folder;  // made if missing
     std::vector<PictureSize> sizes{{640, 480}};
-    int samplesPerHalf = 256;          // of the reference; it is the mean of two halves
+    int samplesPerHalf = 256;         // of the reference; it is the mean of two halves
     double rowMilliseconds = 6000.0;  // fewer than nine frames, not fewer than two, where nine take longer
     double exposureEv = 0.0;
     ViewSettings view;            // camera, pose

@@ -5,6 +5,9 @@
 #include <bit>
 #include <cstring>
 
+#include "scene/animation.hpp"
+#include "scene/deformation.hpp"
+
 namespace dioptre {
 
 void ContentHash::addBytes(const void* data, std::size_t size) {
@@ -38,6 +41,33 @@ void ContentHash::add(std::uint64_t value) {
 std::string ContentHash::hex() const {
     return fmt::format("{:016x}", value_);
 }
+
+namespace {
+
+/// What bends the meshes at time 0, which is what is measured; where things are then is in the scene's lists.
+void addDeformations(ContentHash& hash, const Scene& scene) {
+    const auto addVector = [&](const auto& v) { hash.addBytes(v.data(), v.size() * sizeof v[0]); };
+    const MotionPose pose = poseAt(*scene.motion, 0.0);
+    for (const Skin& skin : scene.motion->skins) {
+        const SkinPose joints = poseOf(skin, pose);
+        hash.addBytes(&joints.origin, sizeof joints.origin);
+        addVector(joints.originFromMesh);
+    }
+    for (const Instance& instance : scene.instances) {
+        hash.add(static_cast<std::uint64_t>(instance.skin + 1));
+        addVector(pose.weights[static_cast<std::size_t>(instance.node)]);
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        for (const Primitive& primitive : mesh.primitives) {
+            if (!primitive.deformation) continue;
+            addVector(primitive.deformation->influences);
+            for (const MorphTarget& target : primitive.deformation->targets)
+                for (const auto* part : {&target.positions, &target.normals, &target.tangents}) addVector(*part);
+        }
+    }
+}
+
+}  // namespace
 
 std::string contentOf(const Scene& scene) {
     ContentHash hash;
@@ -88,6 +118,7 @@ std::string contentOf(const Scene& scene) {
         for (const float value : {light.range, light.innerConeCos, light.outerConeCos})
             hash.add(static_cast<double>(value));
     }
+    if (scene.motion) addDeformations(hash, scene);
     return hash.hex();
 }
 

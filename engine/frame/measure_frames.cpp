@@ -116,8 +116,8 @@ std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const 
     // More finished frames. By stage: in the same ones where the waits between stages are nothing to them, otherwise in
     // some of their own.
     const bool slow = first.milliseconds > kSlowMilliseconds;
-    const int frames =
-        static_cast<int>(std::clamp(request.rowMilliseconds / first.milliseconds, 1.0 * kLeastFrames, 1.0 * kMostFrames));
+    const int frames = static_cast<int>(
+        std::clamp(request.rowMilliseconds / first.milliseconds, 1.0 * kLeastFrames, 1.0 * kMostFrames));
     std::vector<double> milliseconds{first.milliseconds};
     std::vector<std::vector<MeasuredStage>> stages;
     for (int i = 1; i < frames + (slow ? 0 : kStageFrames); ++i) {

@@ -20,7 +20,7 @@ struct FrameRequest {
     const View& view;
     const Lens& lens;
     float exposure = 1.0f;
-    int firstSample = 0;  // where a technique's samples of the lens begin: beyond those of the reference
+    int firstSample = 0;              // where a technique's samples of the lens begin: beyond those of the reference
     double rowMilliseconds = 6000.0;  // fewer than nine frames where nine take longer
 };
 

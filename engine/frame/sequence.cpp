@@ -13,7 +13,7 @@ std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest
     ProgressLine progress("frame", static_cast<std::size_t>(request.frames));
     for (int i = 0; i < request.frames && !request.stopped(); ++i) {
         FrameMaker::Input input;
-        input.time = i / request.fps;
+        input.time = request.start + i / request.fps;
         // The first frame alone pays for compiling shaders: drawn once before it counts.
         if (i == 0) maker.make(input);
         shown.push_back(maker.make(input));

@@ -14,8 +14,9 @@ namespace dioptre {
 struct SequenceRequest {
     std::string title;  // the scene's name
     int frames = 1;
-    double fps = 30.0;                                     // frame i is at i / fps seconds
+    double fps = 30.0;                                     // frame i is at start + i / fps seconds
     std::filesystem::path folder;                          // must be there
+    double start = 0.0;                                    // seconds
     std::function<bool()> stopped = [] { return false; };  // asked before each frame
 };
 

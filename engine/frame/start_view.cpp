@@ -26,12 +26,17 @@ const Camera& findCamera(const Scene& scene, const std::string& nameOrIndex) {
                                  known.empty() ? "no camera" : known));
 }
 
-Pose poseOf(const glm::mat4& worldFromCamera) {
-    const glm::dmat4 m(worldFromCamera);
+}  // namespace
+
+Pose poseOf(const Camera& camera) {
+    const glm::dmat4 m(camera.worldFromCamera);
     return {glm::dvec3(m[3]), glm::normalize(glm::quat_cast(glm::dmat3(m)))};
 }
 
-}  // namespace
+const Camera* startCamera(const Scene& scene, const ViewSettings& settings) {
+    if (settings.pose || (scene.cameras.empty() && settings.camera.empty())) return nullptr;
+    return settings.camera.empty() ? &scene.cameras.front() : &findCamera(scene, settings.camera);
+}
 
 View framedView(const Bounds& bounds, PictureSize size) {
     View view;
@@ -57,7 +62,7 @@ View startView(const Scene& scene, const ViewSettings& settings) {
         const double aspect = static_cast<double>(settings.size.width) / settings.size.height;
         view.frustum = symmetricFrustum(Radians(camera.yfovRadians), aspect);
         view.near = Metres(camera.nearMetres);
-        view.pose = poseOf(camera.worldFromCamera);
+        view.pose = poseOf(camera);
     }
     if (settings.pose) {
         const auto& p = *settings.pose;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -60,12 +61,19 @@ GLuint compile(GLenum stage, std::string_view file, const std::vector<std::strin
 
 }  // namespace
 
-Program::Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines) {
+Program::Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines)
+    : Program(std::array{Stage(GL_VERTEX_SHADER, vertex), Stage(GL_FRAGMENT_SHADER, fragment)}, defines) {}
+
+Program Program::compute(std::string_view file, const std::vector<std::string>& defines) {
+    return {std::array{Stage(GL_COMPUTE_SHADER, file)}, defines};
+}
+
+Program::Program(std::span<const Stage> stages, const std::vector<std::string>& defines) {
     const GLuint program = glCreateProgram();
     Handle::operator=(Handle(program));
+    const std::string_view name = stages.back().second;
     // A shader marked for deletion goes with its program, whatever fails.
-    using Stage = std::pair<GLenum, std::string_view>;
-    for (const auto& [stage, file] : {Stage(GL_VERTEX_SHADER, vertex), Stage(GL_FRAGMENT_SHADER, fragment)}) {
+    for (const auto& [stage, file] : stages) {
         const GLuint shader = compile(stage, file, defines);
         glAttachShader(program, shader);
         glDeleteShader(shader);
@@ -78,9 +86,9 @@ Program::Program(std::string_view vertex, std::string_view fragment, const std::
         GLsizei length = 0;
         glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
         log.resize(static_cast<std::size_t>(length));
-        throw RunError(fmt::format("shaders/{}: {}", fragment, log));
+        throw RunError(fmt::format("shaders/{}: {}", name, log));
     }
-    glObjectLabel(GL_PROGRAM, program, static_cast<GLsizei>(fragment.size()), fragment.data());
+    glObjectLabel(GL_PROGRAM, program, static_cast<GLsizei>(name.size()), name.data());
 }
 
 FullscreenPass::FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines)

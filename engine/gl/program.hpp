@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gl/objects.hpp"
@@ -24,6 +25,9 @@ class Program : public Handle<ProgramTraits> {
     /// compiler's log.
     Program(std::string_view vertex, std::string_view fragment, const std::vector<std::string>& defines = {});
 
+    /// A compute shader, likewise.
+    static Program compute(std::string_view file, const std::vector<std::string>& defines = {});
+
     void use() const { glUseProgram(name()); }
     // Uniforms by name, for the program made current or not; a name the compiler removed is ignored.
     void set(const char* uniform, int v) const { glProgramUniform1i(name(), location(uniform), v); }
@@ -40,6 +44,8 @@ class Program : public Handle<ProgramTraits> {
     }
 
   private:
+    using Stage = std::pair<GLenum, std::string_view>;  // and its file
+    Program(std::span<const Stage> stages, const std::vector<std::string>& defines);
     GLint location(const char* uniform) const { return glGetUniformLocation(name(), uniform); }
 };
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "render/scene_upload.hpp"
+#include "scene/placement.hpp"
 #include "shaders/shared/scene_types.h"
 
 namespace dioptre {
@@ -102,6 +103,36 @@ GpuScene::GpuScene(const Scene& scene)
     skyRadiance_ = scene.lights.empty() ? kSkyAlone : kSkyBesideLights;
     lights_ = scene.lights.empty() ? std::vector<Light>{keyLight()} : scene.lights;
     lightBuffer_ = Buffer(lights_.size() * sizeof(gpu::LightData), nullptr, true, "lights");
+    if (scene.motion) {
+        pose_ = poseAt(*scene.motion, 0.0);
+        applyPose();
+    }
+}
+
+void GpuScene::pose(const MotionPose& pose, PassLog& log) {
+    if (pose == pose_) return;
+    PassScope scope(log, "pose");
+    pose_ = pose;
+    ++poseNumber_;
+    applyPose();
+}
+
+void GpuScene::applyPose() {
+    std::vector<Deformer::Placed> bent;
+    if (deformer_) bent = deformer_->pose(pose_, vertices_);
+    for (Item& item : items_) {
+        if (item.bent >= 0) {
+            const Deformer::Placed& placed = bent[static_cast<std::size_t>(item.bent)];
+            item.worldFromMesh = placed.worldFromMesh;
+            item.state.mirrored = placed.mirrored;
+            item.bounds = placed.bounds;
+        } else if (item.node >= 0) {
+            item.worldFromMesh = pose_.worldFromNode[static_cast<std::size_t>(item.node)];
+            item.state.mirrored = glm::determinant(glm::dmat3(item.worldFromMesh)) < 0.0;
+        }
+    }
+    for (Light& light : lights_)
+        if (light.node >= 0) place(light, glm::mat4(pose_.worldFromNode[static_cast<std::size_t>(light.node)]));
 }
 
 void GpuScene::uploadMaterials(const Scene& scene) {
@@ -132,11 +163,20 @@ void GpuScene::uploadGeometry(const Scene& scene) {
     extras_ = std::move(geometry.extras);
     indices_ = std::move(geometry.indices);
     bytes_ += vertices_.bytes() + extras_.bytes() + indices_.bytes();
+    if (!geometry.posedVertices.empty()) deformer_.emplace(scene.motion);
+    std::size_t posed = 0;
     for (const Instance& instance : scene.instances) {
         const auto& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         const auto first = geometry.firstPrimitive[static_cast<std::size_t>(instance.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const Primitive& primitive = mesh.primitives[i];
+            PrimitiveRange range = geometry.primitives[first + i];
+            int bent = -1;
+            if (bends(instance, primitive)) {
+                const std::uint32_t firstPosed = geometry.posedVertices[posed++];
+                bent = static_cast<int>(deformer_->add(instance, primitive, range.baseVertex, firstPosed));
+                range.baseVertex = firstPosed;
+            }
             if (primitive.indices.empty()) continue;
             const auto material = static_cast<std::uint32_t>(primitive.material);
             const State state{materials_[material].alphaMode == AlphaMode::blend,
@@ -145,10 +185,13 @@ void GpuScene::uploadGeometry(const Scene& scene) {
                               !primitive.extras.empty(),
                               primitive.lit,
                               primitive.topology};
-            items_.push_back(
-                {state, geometry.primitives[first + i], glm::dmat4(instance.worldFromMesh), primitive.bounds});
+            items_.push_back({state, range, glm::dmat4(instance.worldFromMesh), primitive.bounds, instance.node, bent});
             blendedItems_ += state.blended ? 1 : 0;
         }
+    }
+    if (deformer_) {
+        deformer_->upload();
+        bytes_ += deformer_->bytes();
     }
     // Items that share all state are drawn by one call.
     std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.state < b.state; });
@@ -235,7 +278,8 @@ void GpuScene::drawThroughLens(std::span<const glm::mat4> clipFromView, float ex
 }
 
 void GpuScene::append(Preparation& preparation, std::vector<Run>& runs, std::size_t item, Faces faces) const {
-    const auto& [state, range, worldFromMesh, bounds] = items_[item];
+    const State& state = items_[item].state;
+    const PrimitiveRange& range = items_[item].range;
     if (runs.empty() || runs.back().state != state || runs.back().faces != faces)
         runs.push_back({state, faces, preparation.commands.size()});
     Run& run = runs.back();

@@ -15,12 +15,15 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "gl/pass.hpp"
 #include "gl/program.hpp"
 #include "optics/lens.hpp"
 #include "optics/view.hpp"
+#include "render/deformer.hpp"
 #include "render/scene_upload.hpp"
 #include "scene/scene.hpp"
 
@@ -37,8 +40,15 @@ class GpuScene {
     /// Matrices that one call can draw: 1 where the driver cannot choose a layer in the vertex stage.
     static int mostMatrices();
 
-    /// Uploads geometry, materials and textures (mipmapped). Needs a current context.
+    /// Uploads geometry, materials and textures (mipmapped). Needs a current context. A scene that moves is posed as at
+    /// time 0.
     explicit GpuScene(const Scene& scene);
+
+    /// Moves what hangs from nodes, bends what is skinned or morphed: once for all drawings that follow. `pose` is one
+    /// of the scene's motion. Nothing is done where it is the pose before.
+    void pose(const MotionPose& pose, PassLog& log);
+    /// Another number with each other pose.
+    std::uint64_t poseNumber() const { return poseNumber_; }
 
     /// Draws what `view` sees to the bound framebuffer: radiance × exposure and depth, or depth alone. The depth
     /// buffer must have been cleared to 0 (reversed depth). The depth left is that of the surface which gives the pixel
@@ -53,7 +63,7 @@ class GpuScene {
     /// by opaque surfaces only.
     void drawThroughLens(std::span<const glm::mat4> clipFromView, float exposure, float lodBias) const;
 
-    /// Of what `view` sees: conservative, from bounding boxes, nearest bounded by the view's near plane.
+    /// Of what `view` sees: conservative, from the pose's bounding boxes, nearest bounded by the view's near plane.
     VergenceRange vergenceRange(const View& view) const;
 
     std::size_t bytes() const { return bytes_; }
@@ -78,6 +88,8 @@ class GpuScene {
         PrimitiveRange range;
         glm::dmat4 worldFromMesh{1.0};
         Bounds bounds;
+        int node = -1;  // of the motion; -1: stands still
+        int bent = -1;  // the deformer's number; -1: rigid
     };
     struct TextureBinding {
         const Texture* texture = nullptr;
@@ -108,6 +120,7 @@ class GpuScene {
 
     void uploadGeometry(const Scene& scene);
     void uploadMaterials(const Scene& scene);
+    void applyPose();
     void makePrograms();
     unsigned featuresOf(const State& state, Phase phase) const;
     void prepare(const View& view, const Lens* lens, int matrices) const;
@@ -123,6 +136,9 @@ class GpuScene {
     std::vector<Light> lights_;
     float skyRadiance_ = 0.0f;
     std::size_t bytes_ = 0;
+    MotionPose pose_;
+    std::uint64_t poseNumber_ = 0;
+    std::optional<Deformer> deformer_;  // none where nothing bends
 
     SceneTextures textures_;
     SceneSamplers samplers_;

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "gl/context.hpp"
+#include "render/deformer.hpp"
 
 namespace dioptre {
 
@@ -104,6 +105,26 @@ GLuint samplerFor(SceneSamplers& samplers, const Sampler& sampler) {
     return name;
 }
 
+namespace {
+
+std::uint32_t forDeformer(std::uint32_t vertex) {
+    constexpr std::uint32_t kStep = Deformer::kVertexAlignment;
+    return (vertex + kStep - 1) / kStep * kStep;
+}
+
+/// Calls with an instance's mesh's primitives that it bends, and their numbers among all primitives.
+template <class Use>
+void forEachBent(const Scene& scene, const UploadedGeometry& all, Use use) {
+    for (const Instance& instance : scene.instances) {
+        const auto mesh = static_cast<std::size_t>(instance.mesh);
+        const std::vector<Primitive>& primitives = scene.meshes[mesh].primitives;
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            if (bends(instance, primitives[i])) use(primitives[i], all.primitives[all.firstPrimitive[mesh] + i]);
+    }
+}
+
+}  // namespace
+
 std::array<const TextureSlot*, gpu::kMaterialTextures> textureSlots(const Material& m) {
     std::array<const TextureSlot*, gpu::kMaterialTextures> slots{};
     slots[gpu::kBaseColor] = &m.baseColorTexture;
@@ -147,9 +168,18 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
     for (const bool extras : {true, false}) {
         forEach([&](const Primitive& primitive, PrimitiveRange& range) {
             if (primitive.extras.empty() == extras) return;
+            if (primitive.deformation) vertexCount = forDeformer(vertexCount);
             range = {indexCount, static_cast<std::uint32_t>(primitive.indices.size()), vertexCount};
             vertexCount += static_cast<std::uint32_t>(primitive.vertices.size());
             indexCount += range.indexCount;
+        });
+        std::size_t posed = 0;
+        forEachBent(scene, all, [&](const Primitive& primitive, const PrimitiveRange&) {
+            all.posedVertices.resize(std::max(all.posedVertices.size(), ++posed));
+            if (primitive.extras.empty() == extras) return;
+            vertexCount = forDeformer(vertexCount);
+            all.posedVertices[posed - 1] = vertexCount;
+            vertexCount += static_cast<std::uint32_t>(primitive.vertices.size());
         });
         if (extras) extraCount = vertexCount;
     }
@@ -164,6 +194,18 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
                               range.baseVertex * sizeof(VertexExtra));
         all.indices.update(primitive.indices.data(), primitive.indices.size() * sizeof(std::uint32_t),
                            range.firstIndex * sizeof(std::uint32_t));
+    });
+    std::size_t posed = 0;
+    forEachBent(scene, all, [&](const Primitive& primitive, const PrimitiveRange& range) {
+        const std::uint32_t to = all.posedVertices[posed++];
+        const auto copy = [&](const Buffer& buffer, std::size_t vertexBytes) {
+            glCopyNamedBufferSubData(buffer.name(), buffer.name(),
+                                     static_cast<GLintptr>(range.baseVertex * vertexBytes),
+                                     static_cast<GLintptr>(to * vertexBytes),
+                                     static_cast<GLsizeiptr>(primitive.vertices.size() * vertexBytes));
+        };
+        copy(all.vertices, sizeof(Vertex));
+        if (!primitive.extras.empty()) copy(all.extras, sizeof(VertexExtra));
     });
     return all;
 }

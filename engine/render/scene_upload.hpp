@@ -41,6 +41,9 @@ struct UploadedGeometry {
     Buffer vertices, extras, indices;
     std::vector<PrimitiveRange> primitives;
     std::vector<std::size_t> firstPrimitive;
+    // Of each primitive that an instance bends, in their order: where its posed vertices begin. They start as copies of
+    // those at rest.
+    std::vector<std::uint32_t> posedVertices;
 };
 /// Primitive by primitive into buffers of the total size: there is no second copy of the scene in memory.
 UploadedGeometry uploadMeshes(const Scene& scene);

@@ -9,8 +9,9 @@
 
 #include "scene/gltf_file.hpp"
 #include "scene/gltf_mesh.hpp"
-#include "scene/gltf_node.hpp"
+#include "scene/gltf_motion.hpp"
 #include "scene/gltf_view.hpp"
+#include "scene/placement.hpp"
 
 namespace dioptre {
 namespace {
@@ -115,11 +116,12 @@ class Builder {
 
     void build() {
         const std::vector<PlacedNode> placed = placeNodes(root_, scene_.name);
+        MotionReader motion(root_, accessors_, placed);
         placeOf_.assign(meshes_.size(), -1);
-        for (const PlacedNode& node : placed) add(node);
+        for (std::size_t i = 0; i < placed.size(); ++i) add(placed[i], motion, i);
+        if (motion.any()) motion.finish(scene_);
         finishMaterials();
         scene_.images = materials_.finishImages();
-        if (!root_.list("animations").empty()) root_.warn("animations", "are ignored: drawn as placed in the file");
     }
 
   private:
@@ -129,19 +131,25 @@ class Builder {
         content.camera = node.index("camera", cameras_.size(), "cameras");
         if (const auto light = node.extension("KHR_lights_punctual"))
             content.light = light->requiredIndex("light", lights_.size(), "lights");
-        if (node.index("skin", root_.list("skins").size(), "skins")) node.warn("skin", "is ignored: drawn unbent");
+        node.index("skin", root_.list("skins").size(), "skins");
         return content;
     }
 
-    void add(const PlacedNode& placed) {
+    // The place is that of its node in Motion::nodes.
+    void add(const PlacedNode& placed, const MotionReader& motion, std::size_t place) {
         const Element node = nodes_[placed.node];
         const NodeContent& content = contents_[placed.node];
         const std::string name = node.text("name").value_or("");
-        if (content.mesh) addInstance(node, *content.mesh, name, placed.worldFromNode);
+        const int moving = motion.any() ? static_cast<int>(place) : -1;
+        if (content.mesh) {
+            addInstance(node, *content.mesh, {name, 0, placed.worldFromNode, moving, motion.skinOf(place)},
+                        motion.needs(*content.mesh));
+        }
         if (content.camera && cameras_[*content.camera]) {
             Camera camera = *cameras_[*content.camera];
             if (!name.empty()) camera.name = name;
-            if (place(camera, placed.worldFromNode))
+            camera.node = moving;
+            if (dioptre::place(camera, placed.worldFromNode))
                 scene_.cameras.push_back(std::move(camera));
             else
                 node.warn("camera", "is ignored: a singular transform gives it no direction");
@@ -149,16 +157,17 @@ class Builder {
         if (content.light) {
             Light light = lights_[*content.light];
             if (!name.empty()) light.name = name;
-            if (place(light, placed.worldFromNode))
+            light.node = moving;
+            if (dioptre::place(light, placed.worldFromNode))
                 scene_.lights.push_back(std::move(light));
             else
                 node.warn("extensions.KHR_lights_punctual", "is ignored: a singular transform gives it no direction");
         }
     }
 
-    void addInstance(const Element& node, std::size_t mesh, const std::string& name, const glm::mat4& worldFromMesh) {
+    void addInstance(const Element& node, std::size_t mesh, Instance instance, const DeformationNeeds& needs) {
         if (placeOf_[mesh] < 0) {
-            scene_.meshes.push_back(meshes_.read(mesh));
+            scene_.meshes.push_back(meshes_.read(mesh, needs));
             placeOf_[mesh] = static_cast<int>(scene_.meshes.size() - 1);
         }
         const Mesh& drawn = scene_.meshes[static_cast<std::size_t>(placeOf_[mesh])];
@@ -167,16 +176,15 @@ class Builder {
             node.fail("mesh", fmt::format("is primitive {} to draw, the limit is {}", draws_, limit));
         for (const Primitive& primitive : drawn.primitives) {
             for (int corner = 0; corner < 8; ++corner) {
-                const Bounds& b = primitive.bounds;
-                const glm::vec4 point((corner & 1 ? b.max : b.min).x, (corner & 2 ? b.max : b.min).y,
-                                      (corner & 4 ? b.max : b.min).z, 1.0f);
-                const glm::vec3 inWorld(worldFromMesh * point);
+                const glm::vec3 inWorld(instance.worldFromMesh * glm::vec4(primitive.bounds.corner(corner), 1.0f));
                 if (!std::isfinite(inWorld.x) || !std::isfinite(inWorld.y) || !std::isfinite(inWorld.z))
                     node.fail("mesh", "lies at infinity: the transform times the positions is too much for a float");
                 scene_.bounds.add(inWorld);
             }
         }
-        scene_.instances.push_back({name.empty() ? drawn.name : name, placeOf_[mesh], worldFromMesh});
+        if (instance.name.empty()) instance.name = drawn.name;
+        instance.mesh = placeOf_[mesh];
+        scene_.instances.push_back(std::move(instance));
     }
 
     // The default material stays if it is used or the only one.

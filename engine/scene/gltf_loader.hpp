@@ -4,15 +4,16 @@
 // Read: the node tree of the default scene (the first if none is named; all roots if there are no scenes), points,
 // lines and triangles in all seven modes with or without indices, vertex colours (COLOR_0, clamped to 0..1), base colour,
 // metallic-roughness, normal, occlusion and emissive textures (PNG, JPEG) with any sampler, alpha masks and blending,
-// perspective cameras, sparse, interleaved and normalised accessors, KHR_lights_punctual, KHR_materials_unlit,
-// KHR_materials_emissive_strength, KHR_mesh_quantization, KHR_texture_transform. A material may read any two of the
-// TEXCOORD_n.
+// perspective cameras, sparse, interleaved and normalised accessors, animations of translation, rotation, scale and
+// weights (step, linear, cubic spline), skins of any number of joints and influences, morph targets of positions,
+// normals and tangents, KHR_lights_punctual, KHR_materials_unlit, KHR_materials_emissive_strength,
+// KHR_mesh_quantization, KHR_texture_transform. A material may read any two of the TEXCOORD_n.
 // Made up: missing normals are flat ones (vertices unshared, given tangents dropped), but points and lines without
 // normals are not lit; a zero normal becomes that of its faces; missing tangents come from the texture coordinates when
 // the material has a normal map, which points and lines without tangents go without. A mesh no node of the scene uses,
 // and an image no drawn texture uses, is not kept.
 // Named in Scene::warnings and left out: orthographic cameras, other scenes, a third set of texture coordinates in one
-// material, vertex colours after the first, skins, animations, morph targets, optional extensions not known here.
+// material, vertex colours after the first, animation of anything but nodes, optional extensions not known here.
 #pragma once
 
 #include <cstddef>

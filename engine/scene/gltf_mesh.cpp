@@ -178,6 +178,7 @@ MeshReader::Plan MeshReader::plan(const Element& primitive) const {
     if (sets.size() > 1) plan.uvName[1] = fmt::format("TEXCOORD_{}", sets[1]);
     planAttributes(primitive.object("attributes"), plan);
     planIndices(primitive, plan);
+    checkDeformation(primitive, accessors_, plan.vertexCount, quantized_);
     plan.drawn = plan.position && plan.indexCount() > 0;
     return plan;
 }
@@ -229,20 +230,19 @@ void MeshReader::warnOfOmissions(const Element& primitive, const Plan& plan) con
         primitive.warn(fmt::format("the last {} is incomplete and left out", noun));
     for (std::size_t set = 0; plan.drawn && set < plan.needs.uvSets.size(); ++set)
         if (!plan.uv[set]) attributes.warn(plan.uvName[set], "is missing: textures are read at 0, 0");
-    if (!primitive.list("targets").empty()) primitive.warn("targets", "morph targets are ignored");
 }
 
-Mesh MeshReader::read(std::size_t i) const {
+Mesh MeshReader::read(std::size_t i, const DeformationNeeds& needs) const {
     const Element element = meshes_[i];
     Mesh mesh;
     mesh.name = element.text("name").value_or("");
     const List primitives = element.list("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p)
-        if (auto primitive = readPrimitive(primitives[p])) mesh.primitives.push_back(std::move(*primitive));
+        if (auto primitive = readPrimitive(primitives[p], needs)) mesh.primitives.push_back(std::move(*primitive));
     return mesh;
 }
 
-std::optional<Primitive> MeshReader::readPrimitive(const Element& element) const {
+std::optional<Primitive> MeshReader::readPrimitive(const Element& element, const DeformationNeeds& needs) const {
     const Plan plan = this->plan(element);
     if (!plan.drawn) return std::nullopt;
     Context& context = element.context();
@@ -267,13 +267,23 @@ std::optional<Primitive> MeshReader::readPrimitive(const Element& element) const
     readIndices(plan, element, primitive);
     readVertices(plan, attributes, primitive);
     if (plan.hasExtras()) readExtras(plan, attributes, primitive);
+    const bool fileTangents = plan.normal && plan.tangent && plan.needs.tangent;
+    auto deformation =
+        readDeformation(element, accessors_, needs, {plan.vertexCount, plan.normal.has_value(), fileTangents});
     if (plan.normal) readNormals(plan, attributes, primitive);
     if (flat) {
         context.charge(indices * (plan.vertexBytes() + kPassingBytes), element.path());
+        if (deformation) {
+            const std::uint64_t shared = deformation->bytes();
+            context.charge(shared / plan.vertexCount * indices, element.path());
+            *deformation = unshared(*deformation, primitive.indices);
+            context.release(shared);
+        }
         makeFlat(primitive);
         context.release(plan.vertexCount * plan.vertexBytes());
     }
     readTangents(plan, attributes, primitive);
+    primitive.deformation = std::move(deformation);
     if (flat) context.release(indices * kPassingBytes);
     context.release(passing);
     return primitive;

@@ -1,6 +1,7 @@
 // Meshes: attributes and indices to points, lines or triangles with complete vertices. Internal to the glTF loader.
 #pragma once
 
+#include "scene/gltf_deformation.hpp"
 #include "scene/gltf_material.hpp"
 
 namespace dioptre::gltf {
@@ -12,7 +13,7 @@ class MeshReader {
 
     std::size_t size() const { return meshes_.size(); }
     /// Reads mesh `i`, which takes memory; checks every index and vertex.
-    Mesh read(std::size_t i) const;
+    Mesh read(std::size_t i, const DeformationNeeds& needs) const;
 
   private:
     struct Plan;
@@ -21,7 +22,7 @@ class MeshReader {
     void planIndices(const Element& primitive, Plan& plan) const;
     void warnOfOmissions(const Element& primitive, const Plan& plan) const;
     void checkAttribute(const Element& attributes, const std::string& semantic, const Accessor& accessor) const;
-    std::optional<Primitive> readPrimitive(const Element& primitive) const;
+    std::optional<Primitive> readPrimitive(const Element& primitive, const DeformationNeeds& needs) const;
     void readIndices(const Plan& plan, const Element& primitive, Primitive& out) const;
     /// An accessor's numbers into each vertex (or extra), `offset` bytes from its start.
     template <typename Holder>

@@ -31,25 +31,15 @@ glm::dmat4 matrixOf(const Element& node, const std::vector<float>& values) {
     return m;
 }
 
+// What is wrong with a transform, but does not hinder drawing it.
 glm::dmat4 parentFromNode(const Element& node) {
-    const std::vector<float> matrix = node.numbers("matrix", 16), t = node.numbers("translation", 3),
-                             r = node.numbers("rotation", 4), s = node.numbers("scale", 3);
-    glm::dmat4 result(1.0);
-    if (!matrix.empty()) {
-        if (!t.empty() || !r.empty() || !s.empty())
-            node.warn("matrix", "stands beside translation, rotation or scale, which are ignored");
-        result = matrixOf(node, matrix);
-    } else {
-        if (!r.empty()) {
-            const glm::dquat rotation(r[3], r[0], r[1], r[2]);  // glTF: x y z w, glm: w first
-            const double length = glm::length(rotation);
-            if (!(length > 0.0)) node.fail("rotation", "is 0 0 0 0, must be a unit quaternion");
-            if (std::abs(length - 1.0) > 1e-3) node.warn("rotation", "is not of unit length: normalised");
-            result = glm::mat4_cast(rotation / length);
-        }
-        for (int i = 0; i < 3 && !s.empty(); ++i) result[i] *= static_cast<double>(s[static_cast<std::size_t>(i)]);
-        if (!t.empty()) result[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
+    if (node.has("matrix") && (node.has("translation") || node.has("rotation") || node.has("scale")))
+        node.warn("matrix", "stands beside translation, rotation or scale, which are ignored");
+    if (const auto r = node.numbers("rotation", 4); !r.empty() && !node.has("matrix")) {
+        const double length = glm::length(glm::dvec4(r[0], r[1], r[2], r[3]));
+        if (std::abs(length - 1.0) > 1e-3) node.warn("rotation", "is not of unit length: normalised");
     }
+    const glm::dmat4 result = readTransform(node).parentFromNode();
     const glm::dmat3 linear(result);
     const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     if (!(std::abs(glm::determinant(linear)) > 1e-9 * lengths)) node.warn("its transform is singular: flattened");
@@ -85,9 +75,10 @@ class Tree {
         struct Visit {
             std::size_t node;
             int depth;
+            int parent;  // its place in `placed`
             glm::dmat4 worldFromParent;
         };
-        std::vector<Visit> stack{{root, 1, glm::dmat4(1.0)}};
+        std::vector<Visit> stack{{root, 1, -1, glm::dmat4(1.0)}};
         std::size_t count = 0;
         while (!stack.empty()) {
             const Visit visit = stack.back();
@@ -98,12 +89,13 @@ class Tree {
             if (visit.depth > limit) node.fail(fmt::format("lies {} deep, the limit is {}", visit.depth, limit));
             const glm::dmat4 world = visit.worldFromParent * locals_[visit.node];
             if (placed) {
-                placed->push_back({visit.node, glm::mat4(world)});
+                placed->push_back({visit.node, visit.parent, glm::mat4(world)});
                 if (!isFinite(placed->back().worldFromNode)) node.fail("its transform in the world is not finite");
             }
             const List children = node.list("children");
+            const int place = placed ? static_cast<int>(placed->size()) - 1 : -1;
             for (std::size_t c = children.size(); c-- > 0;)  // so that the first is on top
-                stack.push_back({children.index(c, nodes_.size(), "nodes"), visit.depth + 1, world});
+                stack.push_back({children.index(c, nodes_.size(), "nodes"), visit.depth + 1, place, world});
         }
         return count;
     }
@@ -139,6 +131,25 @@ std::vector<std::size_t> rootsOf(const Element& scene, const Tree& tree) {
 }
 
 }  // namespace
+
+NodeTransform readTransform(const Element& node) {
+    NodeTransform transform;
+    const std::vector<float> matrix = node.numbers("matrix", 16), t = node.numbers("translation", 3),
+                             r = node.numbers("rotation", 4), s = node.numbers("scale", 3);
+    if (!matrix.empty()) {
+        transform.matrix = matrixOf(node, matrix);
+        return transform;
+    }
+    if (!r.empty()) {
+        const glm::dquat rotation(r[3], r[0], r[1], r[2]);  // glTF: x y z w, glm: w first
+        const double length = glm::length(rotation);
+        if (!(length > 0.0)) node.fail("rotation", "is 0 0 0 0, must be a unit quaternion");
+        transform.rotation = rotation / length;
+    }
+    if (!s.empty()) transform.scale = glm::dvec3(s[0], s[1], s[2]);
+    if (!t.empty()) transform.translation = glm::dvec3(t[0], t[1], t[2]);
+    return transform;
+}
 
 std::vector<PlacedNode> placeNodes(const Element& root, std::string& sceneName) {
     const Tree tree(root);

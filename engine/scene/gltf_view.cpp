@@ -17,13 +17,6 @@ float requiredPositive(const Element& owner, std::string_view key) {
     return *value;
 }
 
-// Unit, or nothing where the column vanishes.
-std::optional<glm::dvec3> direction(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    if (!(length > 0.0)) return std::nullopt;
-    return v / length;
-}
-
 void readCones(const Element& spot, Light& light) {
     const float inner = spot.number("innerConeAngle", 0.0f), outer = spot.number("outerConeAngle", kPi / 4.0f);
     constexpr float kRounding = 1e-5f;  // a right angle printed in decimals
@@ -98,26 +91,6 @@ std::vector<Light> readLights(const Element& root) {
         lights.push_back(std::move(light));
     }
     return lights;
-}
-
-bool place(Camera& camera, const glm::mat4& worldFromNode) {
-    const glm::dmat4 m(worldFromNode);
-    const auto back = direction(glm::dvec3(m[2]));
-    if (!back) return false;
-    const auto up = direction(glm::dvec3(m[1]) - *back * glm::dot(*back, glm::dvec3(m[1])));
-    if (!up) return false;
-    const glm::dvec3 right = glm::cross(*up, *back);
-    camera.worldFromCamera =
-        glm::mat4(glm::vec4(right, 0.0f), glm::vec4(*up, 0.0f), glm::vec4(*back, 0.0f), worldFromNode[3]);
-    return true;
-}
-
-bool place(Light& light, const glm::mat4& worldFromNode) {
-    light.position = glm::vec3(worldFromNode[3]);
-    if (light.kind == LightKind::point) return true;
-    const auto back = direction(glm::dvec3(worldFromNode[2]));
-    if (back) light.direction = glm::vec3(-*back);
-    return back.has_value();
 }
 
 }  // namespace dioptre::gltf

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/deformation.hpp"
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -31,7 +33,8 @@ std::size_t Scene::bytes() const {
     for (const Mesh& mesh : meshes)
         for (const Primitive& primitive : mesh.primitives)
             sum += primitive.vertices.size() * sizeof(Vertex) + primitive.extras.size() * sizeof(VertexExtra) +
-                   primitive.indices.size() * sizeof(std::uint32_t);
+                   primitive.indices.size() * sizeof(std::uint32_t) +
+                   (primitive.deformation ? primitive.deformation->bytes() : 0);
     return sum;
 }
 
@@ -43,6 +46,7 @@ void Scene::releaseBulk() {
             primitive.vertices = std::vector<Vertex>();
             primitive.extras = std::vector<VertexExtra>();
             primitive.indices = std::vector<std::uint32_t>();
+            primitive.deformation = nullptr;
         }
     }
 #ifdef __GLIBC__

@@ -6,11 +6,15 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dioptre {
+
+struct Deformation;  // scene/deformation.hpp
+struct Motion;       // scene/animation.hpp
 
 /// Axis-aligned box; empty while min > max.
 struct Bounds {
@@ -21,6 +25,13 @@ struct Bounds {
     void add(const glm::vec3& p) {
         min = glm::min(min, p);
         max = glm::max(max, p);
+    }
+    void add(const Bounds& b) {
+        min = glm::min(min, b.min);
+        max = glm::max(max, b.max);
+    }
+    glm::vec3 corner(int i) const {  // 0..7
+        return {(i & 1 ? max : min).x, (i & 2 ? max : min).y, (i & 4 ? max : min).z};
     }
     glm::vec3 centre() const { return (min + max) * 0.5f; }
     glm::vec3 size() const { return max - min; }
@@ -97,7 +108,8 @@ struct Primitive {
     Topology topology = Topology::triangles;
     bool lit = true;  // false: points or lines without normals, their radiance is base colour + emission
     int material = 0;
-    Bounds bounds;  // in mesh space
+    Bounds bounds;                                   // in mesh space, undeformed
+    std::shared_ptr<const Deformation> deformation;  // none: rigid
 
     std::size_t triangleCount() const { return topology == Topology::triangles ? indices.size() / 3 : 0; }
 };
@@ -112,6 +124,8 @@ struct Instance {
     std::string name;
     int mesh = 0;
     glm::mat4 worldFromMesh{1.0f};
+    int node = -1;  // in Motion::nodes; -1: stands still
+    int skin = -1;  // in Motion::skins; those of its primitives that have influences follow it instead of the node
 };
 
 struct Camera {
@@ -119,6 +133,7 @@ struct Camera {
     glm::mat4 worldFromCamera{1.0f};  // rigid: looks along -z, y up
     float yfovRadians = 0.8f;
     float nearMetres = 0.01f;
+    int node = -1;  // as an instance's
 };
 
 enum class LightKind { directional, point, spot };
@@ -132,6 +147,7 @@ struct Light {
     glm::vec3 direction{0.0f, 0.0f, -1.0f};             // unit, the way the light travels
     float range = 0.0f;                                 // metres, 0: unlimited
     float innerConeCos = 1.0f, outerConeCos = 0.7071f;  // spot only
+    int node = -1;                                      // as an instance's
 };
 
 struct Scene {
@@ -142,14 +158,16 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
-    Bounds bounds;                      // of all instances, in the world; empty for an empty scene
-    std::vector<std::string> warnings;  // what was ignored, one line each
+    Bounds bounds;  // of all instances, in the world, at all times as far as looked at (motionBounds); empty: nothing
+    std::shared_ptr<const Motion> motion;  // none: nothing ever moves. Else what is placed here is so at time 0
+    std::vector<std::string> warnings;     // what was ignored, one line each
 
     std::size_t triangleCount() const;  // over instances
     std::size_t bytes() const;          // of vertices, extras, indices and texels
     float brightestEmission() const;    // the most that a channel of an emissive or unlit material may have
 
-    /// Frees vertices, extras, indices and texels once they are where they are drawn from; what is left tells of the rest.
+    /// Frees vertices, extras, deformations, indices and texels once they are where they are drawn from; what is left
+    /// tells of the rest.
     void releaseBulk();
 };
 

@@ -163,6 +163,45 @@ TEST_F(RenderTest, SequencesComeWithAPageAndALog) {
     EXPECT_TRUE(log[4].starts_with("0.150000,0.80000,0.50000,1,0.2")) << log[4];
 }
 
+TEST_F(RenderTest, DrawsTheMomentThatIsAskedFor) {
+    // The square on the left, in steps: back by 0.1 m a second, for 3 s, then from the start.
+    std::string gltf = read("scene.gltf");
+    const std::vector<float> keys = {0, 1, 2, 3, 0, 0, 0, 0, 0, -0.1f, 0, 0, -0.2f, 0, 0, 0};
+    write("scene.keys.bin", std::string(reinterpret_cast<const char*>(keys.data()), keys.size() * sizeof(float)));
+    const auto insert = [&](const std::string& after, const std::string& text) {
+        const std::size_t at = gltf.find(after);
+        ASSERT_NE(at, std::string::npos) << after;
+        gltf.insert(at + after.size(), text);
+    };
+    insert(R"("count": 6})", R"(,
+    {"bufferView": 2, "componentType": 5126, "type": "SCALAR", "count": 4, "min": [0], "max": [3]},
+    {"bufferView": 2, "byteOffset": 16, "componentType": 5126, "type": "VEC3", "count": 4})");
+    insert(R"("byteOffset": 96, "byteLength": 12})", R"(, {"buffer": 1, "byteLength": 64})");
+    insert(R"("byteLength": 108})", R"(, {"uri": "scene.keys.bin", "byteLength": 64}], "animations": [{"name": "back",
+    "samplers": [{"input": 3, "output": 4, "interpolation": "STEP"}],
+    "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]})");
+    write("scene.gltf", gltf);
+    const auto moment = [&](const char* seconds) { return drawn({"--technique", "pinhole", "--time", seconds}); };
+    const Image start = drawn({"--technique", "pinhole"}), second = moment("1");
+    expectSame(start, moment("0"));
+    expectSame(second, moment("1"));
+    expectSame(second, moment("1.9"));
+    EXPECT_LT(psnr(start, second), 40.0) << "it moved";
+    expectSame(start, moment("3"));
+    expectSame(second, moment("4"));
+
+    // Sequences show each frame's moment; the window's clock is the same.
+    draw({"--technique", "pinhole", "--frames", "3", "--fps", "1", "--time", "1", "--out", "seq", "--log", "log.csv"});
+    for (const auto& [frame, seconds] : {std::pair("seq/frame_0000.png", "1"), {"seq/frame_0002.png", "3"}}) {
+        drawn({"--technique", "pinhole", "--time", seconds}, "one.png");
+        EXPECT_EQ(read(frame), read("one.png")) << frame;
+    }
+    EXPECT_TRUE(linesOf(read("log.csv")).at(1).starts_with("1.000000,"));
+    const Outcome inspected = run({"inspect", "scene.gltf", "--time", "1"});
+    EXPECT_THAT(inspected.out, HasSubstr("animation 0 back, 3 s, 1 channel"));
+    expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--time", "-1"}), {"--time", "-1", "0..1e+06 s"});
+}
+
 TEST_F(RenderTest, AFileThatCannotBeWrittenIsNotThere) {
     const std::vector<std::string> scene = {"render", "scene.gltf", "--size", "40x30", "--out"};
     const auto into = [&](const std::string& name, std::vector<std::string> more = {}) {

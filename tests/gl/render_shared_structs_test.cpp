@@ -4,6 +4,7 @@
 
 #include "gl/program.hpp"
 #include "gl_fixture.hpp"
+#include "shaders/shared/deform_types.h"
 #include "shaders/shared/scene_types.h"
 
 namespace dioptre {
@@ -37,7 +38,6 @@ class SharedStructsGLTest : public GlTest {
         return value;
     }
 
-  private:
     Program program_{"scene/scene.vert.glsl", "scene/surface.frag.glsl", {"LIT", "MAPPED", "OCCLUSION"}};
 };
 
@@ -75,6 +75,20 @@ TEST_F(SharedStructsGLTest, LightData) {
     expectMember("lights[0].color", offsetof(LightData, color), stride, GL_FLOAT_VEC4);
     expectMember("lights[0].cone", offsetof(LightData, cone), stride, GL_FLOAT_VEC4);
     EXPECT_EQ(binding("Lights"), 2);
+}
+
+TEST_F(SharedStructsGLTest, Deformation) {
+    program_ = Program::compute("scene/deform.comp.glsl");
+    using gpu::ActiveTarget;
+    using gpu::InfluenceData;
+    const std::size_t stride = sizeof(InfluenceData);
+    expectMember("influences[0].joint", offsetof(InfluenceData, joint), stride, GL_UNSIGNED_INT);
+    expectMember("influences[0].weight", offsetof(InfluenceData, weight), stride, GL_FLOAT);
+    expectMember("activeTargets[0].target", offsetof(ActiveTarget, target), sizeof(ActiveTarget), GL_UNSIGNED_INT);
+    expectMember("activeTargets[0].weight", offsetof(ActiveTarget, weight), sizeof(ActiveTarget), GL_FLOAT);
+    GLint group[3] = {};
+    glGetProgramiv(program_.name(), GL_COMPUTE_WORK_GROUP_SIZE, group);
+    EXPECT_EQ(group[0], gpu::kDeformGroup);
 }
 
 }  // namespace

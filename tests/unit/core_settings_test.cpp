@@ -72,6 +72,7 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"head-trace", "h"},
                                      {"camera", "c"},
                                      {"pose", "1,2,3,0,0,0,1"},
+                                     {"time", "2"},
                                      {"size", "8x8"},
                                      {"eye", "left"},
                                      {"ipd-mm", "60"},

@@ -249,20 +249,22 @@ TEST(GltfLoaderTest, WhatIsIgnoredIsSaid) {
     gltf["materials"][0]["emissiveFactor"] = {2, 0, 0};
     attributesOf(gltf)["COLOR_1"] = 0;
     gltf["scenes"].push_back(Json::object());
-    gltf["meshes"][0]["primitives"][0]["targets"] = Json::array({Json::object()});
-    gltf["skins"] = Json::array({Json::object()});
+    gltf["skins"] = Json::parse(R"([{"joints": [0]}])");
     gltf["nodes"][0]["skin"] = 0;
-    gltf["animations"] = Json::array({Json::object()});
+    gltf["animations"] = Json::parse(R"([{"channels": [{"sampler": 0, "target": {"path": "pointer"}}],
+                                          "samplers": [{"input": 4, "output": 0}]}])");
+    addAccessor(gltf, bytesOf<float>({0, 1, 2}), 5126, "SCALAR", 3);
     gltf["cameras"] = Json::parse(R"([{"type": "orthographic"}])");
     const Scene scene = load(gltf);
     for (const char* line :
          {"extensionsUsed[0]: KHR_materials_clearcoat is ignored",
           "materials[0].emissiveFactor: a factor outside 0..1 is clamped",
           "meshes[0].primitives[0].attributes.COLOR_1: a second vertex colour is ignored",
-          "scenes: scene 0 of 2 is drawn, no other", "meshes[0].primitives[0].targets: morph targets are ignored",
-          "nodes[0].skin: is ignored", "animations: are ignored", "cameras[0]: orthographic cameras are ignored"})
+          "scenes: scene 0 of 2 is drawn, no other", "nodes[0].skin: is ignored: the node has no mesh with JOINTS_0",
+          "animations[0].channels[0].target: aims at no node: ignored", "cameras[0]: orthographic cameras are ignored"})
         EXPECT_TRUE(warns(scene, line)) << line;
-    EXPECT_EQ(scene.warnings.size(), 8u);
+    EXPECT_EQ(scene.warnings.size(), 7u);
+    EXPECT_FALSE(scene.motion);
 }
 
 TEST(GltfLoaderTest, TextureCoordinatesOfTheMaterialsSet) {

@@ -62,7 +62,13 @@ const Texture& Reference::draw(const EyeFrame& frame) {
     const double start = nowMilliseconds();
     const int layers = GpuScene::mostMatrices();
     resize(frame.view.width, frame.view.height, layers);
-    const Key key{&frame.scene, frame.view, frame.lens, frame.exposure, frame.samples, frame.firstSample};
+    const Key key{&frame.scene,
+                  frame.view,
+                  frame.lens,
+                  frame.exposure,
+                  frame.samples,
+                  frame.firstSample,
+                  frame.scene.poseNumber()};
     if (frame.budgetMilliseconds <= 0.0 || key != key_) {
         key_ = key;
         drawn_ = 0;

@@ -31,6 +31,7 @@ class Reference final : public Technique {
         Lens lens;
         float exposure = 0.0f;
         int samples = 1, firstSample = 0;
+        std::uint64_t poseNumber = 0;
 
         bool operator==(const Key&) const = default;
     };
