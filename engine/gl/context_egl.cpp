@@ -40,6 +40,7 @@ class EglContext final : public Context {
         EGLint count = 0;
         if (queryDevices) queryDevices(16, devices, &count);
         std::vector<EGLDisplay> found;
+        found.reserve(static_cast<std::size_t>(count) + 1);
         for (EGLint i = 0; i < count; ++i)
             found.push_back(getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
         found.push_back(getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
