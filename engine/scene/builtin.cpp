@@ -32,8 +32,9 @@ struct Maker {
     void (*make)(builtin::Model&);
     float detail;  // of its meshes, so that the scene has the triangles it is meant to have
 };
-constexpr Maker kMakers[] = {
-    {"toys", builtin::makeToys, 0.54f}, {"fishes", builtin::makeFishes, 0.58f}, {"dragons", builtin::makeDragons, 0.9f}};
+constexpr Maker kMakers[] = {{"toys", builtin::makeToys, 0.54f},
+                             {"fishes", builtin::makeFishes, 0.58f},
+                             {"dragons", builtin::makeDragons, 0.9f}};
 
 unsigned threadsOf(const BuiltinOptions& options) {
     return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
