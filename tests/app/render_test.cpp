@@ -300,7 +300,8 @@ TEST_F(RenderTest, ComparesPictures) {
     EXPECT_EQ(run({"compare", "left.png", "right.pfm", "--out", "map.pfm"}).status, 0);
     EXPECT_EQ(run({"compare", "left.png", "right.pfm", "--out", "map.png"}).status, 0);
     const Image errors = readImage(folder / "map.pfm");
-    const double mean = std::accumulate(errors.pixels.begin(), errors.pixels.end(), 0.0) / static_cast<double>(errors.pixels.size());
+    const double mean =
+        std::accumulate(errors.pixels.begin(), errors.pixels.end(), 0.0) / static_cast<double>(errors.pixels.size());
     EXPECT_THAT(different.out, HasSubstr(fmt::format("FLIP {:.4f}", mean).substr(0, 9)));
     EXPECT_EQ(readImage(folder / "map.png").width, 40);
     expectRefused(run({"compare", "left.png", "right.pfm", "--out", "map.jpg"}), {"map.jpg"});

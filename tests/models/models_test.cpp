@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "families.hpp"
 #include "frame/frame_maker.hpp"
+#include "scene/animation.hpp"
 
 namespace dioptre::test {
 namespace {
@@ -87,15 +88,69 @@ void checkNode(const std::string& name) {
     }
 }
 
-// At rest, where the file places it: a cube of 0.6 m, its orange front before the viewer.
-void checkAnimatedNodeAtRest(const std::string& name) {
-    const Image picture = drawModel(unlit(loadModel(name)));
+/// The model as its animation has it `seconds` after it began.
+Image drawModelAt(const Scene& scene, double seconds) {
+    GpuScene gpu(scene);
+    PassLog log;
+    gpu.pose(poseAt(*scene.motion, seconds), log);
+    Shot shot;
+    shot.view = frontView();
+    return draw(TechniqueChoice::pinhole, gpu, shot);
+}
+
+/// How far right of the middle what is drawn lies on average, px.
+double offsetOf(const Image& picture) {
+    double sum = 0.0;
+    int count = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            if (pixelAt(picture, x, y) != glm::dvec3(0.0)) sum += x + 0.5 - kSide / 2.0, ++count;
+    return sum / count;
+}
+
+// A cube of 0.6 m, its orange front before the viewer halfway. Moved by 0.1 m along x and back, turned to
+// its right and left side, or 0.8 and 1.2 times as large; in steps, evenly or smoothly; over 4 s.
+void checkAnimatedNode(const std::string& name) {
+    const Scene scene = unlit(loadModel(name));
+    ASSERT_TRUE(scene.motion);
     const int side = static_cast<int>(0.6 * 200 * 2.0 / 1.7);  // its front stands 0.3 m nearer
-    EXPECT_NEAR(pixelsDrawn(picture), side * side, 4 * side);
-    const glm::dvec3 front = seenAt(picture, {0.3, 0.3});
+    const auto at = [&](double seconds) { return drawModelAt(scene, seconds); };
+    const bool turns = numberOf(name) == 1 || numberOf(name) == 5;
+    const Image rest = at(turns ? 1.0 : 0.5);  // neither turned nor smaller
+    EXPECT_NEAR(pixelsDrawn(rest), side * side, 4 * side);
+    const glm::dvec3 front = seenAt(rest, {0.0, 0.2});
     EXPECT_NEAR(front.x, 1.0, 0.02);
     EXPECT_NEAR(front.y, linearFromSrgb(128 / 255.0), 0.02);
     EXPECT_NEAR(front.z, 0.0, 0.02);
+
+    const auto offset = [&](double seconds) { return offsetOf(at(seconds)); };
+    const double tenth = 0.1 * 200 * 2.0 / 1.7;
+    expectSame(at(4.0), at(0.0), "after a whole period");
+    switch (numberOf(name)) {
+        case 0:
+        case 4:
+            EXPECT_NEAR(offset(0.0), -tenth, 3.0);
+            EXPECT_NEAR(offset(1.0), tenth, 3.0);
+            EXPECT_NEAR(offset(0.5), 0.0, 0.5);
+            // Smoothly is slower at first.
+            EXPECT_NEAR(offset(0.25), numberOf(name) == 0 ? -0.5 * tenth : -0.6875 * tenth, 2.0);
+            break;
+        case 3:
+            EXPECT_NEAR(offset(0.9), offset(0.0), 0.01);
+            EXPECT_NEAR(offset(1.5), offset(1.0), 0.01);
+            EXPECT_NEAR(offset(2.0), tenth, 3.0);
+            break;
+        case 2:
+            EXPECT_NEAR(pixelsDrawn(at(1.0)) / static_cast<double>(pixelsDrawn(at(0.0))),
+                        2.25 * std::pow(1.76 / 1.64, 2.0), 0.06);
+            EXPECT_NEAR(offset(0.7), 0.0, 0.5);
+            break;
+        default:
+            expectSame(at(3.0), rest, "its front again");
+            EXPECT_GT(pixelsDiffering(at(0.0), rest), side * side / 2) << "its right";
+            EXPECT_GT(pixelsDiffering(at(2.0), at(0.0)), side * side / 2) << "its left";
+            EXPECT_GT(pixelsDrawn(at(0.5)), 1.1 * side * side) << "two sides at once";
+    }
 }
 
 using Check = void (*)(const std::string& name);
@@ -104,8 +159,7 @@ struct Family {
     int models;
     Check check;
 };
-// Models whose point is animation are asked for their place at rest.
-constexpr Family kFamilies[] = {{"Animation_Node", 6, checkAnimatedNodeAtRest},
+constexpr Family kFamilies[] = {{"Animation_Node", 6, checkAnimatedNode},
                                 {"Buffer_Interleaved", 5, checkInterleaved},
                                 {"Compatibility", 6, checkCompatibility},
                                 {"Material", 8, checkMaterial},
