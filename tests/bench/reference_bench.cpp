@@ -2,7 +2,7 @@
 // falls with N.
 //
 //   bench_reference cost [SCENE.glb ...]     default: studio, toys, 2,000 small objects; one interleaved run each
-//   bench_reference error [SCENE.glb]        RMSE of N = 16 ... 1024 against 8192 other samples, 640x480, pupil 4 mm: of
+//   bench_reference error [SCENE.glb]        RMSE of N = 16 ... 1024 against 4096 other samples, 640x480, pupil 4 mm: of
 //                                            linear radiance, and of what a display shows of it (cut at 1)
 #include <fmt/format.h>
 
@@ -124,7 +124,7 @@ void error(const Scene& scene) {
         frame.samples = samples;
         return readTexture(makeTechnique(TechniqueChoice::reference)->draw(frame), GL_RGB, 3);
     };
-    const std::vector<float> truth = draw(2048, 8192);
+    const std::vector<float> truth = draw(2048, 4096);
     std::fputs("| N | RMSE of radiance | RMSE cut at 1 |\n|---|---|---|\n", stdout);
     Slope ofRadiance, ofShown;
     for (int n = 16; n <= 1024; n *= 2) {
