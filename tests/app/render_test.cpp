@@ -1,6 +1,7 @@
 // dioptre render and compare: what ends up in the files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -286,6 +287,16 @@ wait $program
     }
     EXPECT_EQ(pictures, frames);
     EXPECT_THAT(read("seq/index.html"), HasSubstr(std::to_string(frames) + " frames"));
+}
+
+TEST_F(RenderTest, LightThatIsCutIsSaidOnce) {
+    const Outcome bright = run({"render", "scene.gltf", "--exposure", "20", "--out", "bright.pfm"});
+    EXPECT_EQ(bright.status, 0);
+    ASSERT_EQ(linesOf(bright.err).size(), 1u) << bright.err;
+    EXPECT_THAT(bright.err, HasSubstr("65504"));
+    const Image picture = readImage(folder / "bright.pfm");
+    EXPECT_EQ(*std::max_element(picture.pixels.begin(), picture.pixels.end()), 65504.0f);
+    EXPECT_EQ(run({"render", "scene.gltf", "--exposure", "16", "--out", "fits.pfm"}).err, "");
 }
 
 TEST_F(RenderTest, ComparesPictures) {
