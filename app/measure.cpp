@@ -77,7 +77,13 @@ void runMeasure(const Command& command) {
         if (interrupted()) break;
         Command one = command;
         one.scene = name;
-        if (!measuring.add(nameOf(name), loadScene(one))) break;
+        try {
+            if (!measuring.add(nameOf(name), loadScene(one))) break;
+        } catch (...) {
+            // What the others gave is kept.
+            if (!measuring.measurements().rows.empty()) measuring.finish();
+            throw;
+        }
     }
     measuring.finish();
     const std::size_t rows = measuring.measurements().rows.size();

@@ -112,6 +112,7 @@ class Viewer {
         noticeUntil_ = 0.0;
         try {
             show_ = std::make_unique<Show>(loadScene(command), settings());
+            start_ = glfwGetTime() - settings().view.time;
         } catch (const std::exception& error) {
             logError(error.what());
             notice_ = fmt::format("Dioptre: {}", error.what());
@@ -133,8 +134,9 @@ class Viewer {
 
 void runView(const Command& command) {
     if (!command.log.empty()) requireWritableName(command.log);
+    Viewer viewer(command);
     watchInterrupts();
-    const std::vector<FrameReport> shown = Viewer(command).run();
+    const std::vector<FrameReport> shown = viewer.run();
     if (!command.log.empty()) writeFileAtomically(command.log, frameLogCsv(shown));
 }
 

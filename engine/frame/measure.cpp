@@ -60,12 +60,15 @@ Measuring::Measuring(MeasureRequest request) : request_(std::move(request)), pic
     for (const MeasuredBlur& blur : kMeasuredBlurs) all_.with.blurs.emplace(blur.name, blur.meanDiameterPx);
 
     const auto table = request_.folder / "trade.json";
+    if (!request_.resume && std::filesystem::exists(table))
+        throw InputError(fmt::format("--out: {} is there already: --resume goes on with it, another folder begins anew",
+                                     table.string()));
     if (request_.resume && std::filesystem::exists(table)) {
         Measurements before = readMeasurements(table);
         if (!before.with.comparable(all_.with))
             throw InputError(
                 fmt::format("--resume: {} was measured by another build, on another machine or with other "
-                            "settings; give another --out, or leave out --resume to begin anew",
+                            "settings; give another --out",
                             table.string()));
         all_.views = std::move(before.views);
         all_.rows = std::move(before.rows);

@@ -1,11 +1,15 @@
 #include "render/scene_upload.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
 #include <cstddef>
+#include <limits>
 
+#include "core/error.hpp"
 #include "gl/context.hpp"
 #include "render/deformer.hpp"
 
@@ -123,6 +127,24 @@ void forEachBent(const Scene& scene, const UploadedGeometry& all, Use use) {
     }
 }
 
+/// RunError where 32 bits cannot number the vertices or indices.
+void requireCountable(const Scene& scene) {
+    std::uint64_t vertices = 0, indices = 0;
+    const auto add = [&](const Primitive& primitive) {
+        vertices += primitive.vertices.size() + Deformer::kVertexAlignment;
+        indices += primitive.indices.size();
+    };
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& primitive : mesh.primitives) add(primitive);
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+            if (bends(instance, primitive)) add(primitive);
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (std::max(vertices, indices) > kMost)
+        throw RunError(fmt::format("{} vertices and {} indices are too many for OpenGL, which counts up to {}",
+                                   vertices, indices, kMost));
+}
+
 }  // namespace
 
 std::array<const TextureSlot*, gpu::kMaterialTextures> textureSlots(const Material& m) {
@@ -165,6 +187,7 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
                 visit(scene.meshes[m].primitives[p], all.primitives[all.firstPrimitive[m] + p]);
     };
     std::uint32_t vertexCount = 0, indexCount = 0, extraCount = 0;
+    requireCountable(scene);
     for (const bool extras : {true, false}) {
         forEach([&](const Primitive& primitive, PrimitiveRange& range) {
             if (primitive.extras.empty() == extras) return;

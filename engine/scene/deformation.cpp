@@ -60,14 +60,12 @@ Deformation unshared(const Deformation& shared, std::span<const std::uint32_t> i
     return result;
 }
 
-DeformedExtent extentOf(const Instance& instance, const Primitive& primitive) {
+DeformedExtent findExtent(const Deformation& deformation, const Primitive& primitive) {
     DeformedExtent extent;
     extent.rest = primitive.bounds;
-    if (!primitive.deformation) return extent;
-    const Deformation& deformation = *primitive.deformation;
     std::map<std::uint32_t, Bounds> joints;
     const std::size_t perVertex = deformation.influencesPerVertex;
-    for (std::size_t i = 0; i < deformation.influences.size() && instance.skin >= 0; ++i) {
+    for (std::size_t i = 0; i < deformation.influences.size(); ++i) {
         const Influence& influence = deformation.influences[i];
         if (influence.weight > 0.0f) joints[influence.joint].add(primitive.vertices[i / perVertex].position);
     }
@@ -78,6 +76,12 @@ DeformedExtent extentOf(const Instance& instance, const Primitive& primitive) {
         extent.targets.push_back(added);
     }
     return extent;
+}
+
+DeformedExtent extentOf(const Instance& instance, const Primitive& primitive) {
+    if (!primitive.deformation) return {primitive.bounds, {}, {}};
+    const DeformedExtent& whole = primitive.deformation->extent;
+    return {whole.rest, instance.skin >= 0 ? whole.joints : std::vector<DeformedExtent::Joint>(), whole.targets};
 }
 
 Bounds posedBounds(const DeformedExtent& extent, std::span<const float> targetWeights,

@@ -23,24 +23,6 @@ struct MorphTarget {
     std::vector<glm::vec3> positions, normals, tangents;
 };
 
-/// Of one primitive.
-struct Deformation {
-    std::size_t influencesPerVertex = 0;  // 0: no skin
-    std::vector<Influence> influences;    // that many for each vertex
-    std::vector<MorphTarget> targets;
-    // Its normals are those of faces, which have three vertices each, in order: found anew for each pose. Otherwise
-    // normals and tangents follow the joints and targets.
-    bool flat = false;
-
-    std::size_t bytes() const;
-};
-
-/// Whether an instance bends this primitive of its mesh.
-bool bends(const Instance& instance, const Primitive& primitive);
-
-/// The vertices that makeFlat makes of a primitive with these indices.
-Deformation unshared(const Deformation& shared, std::span<const std::uint32_t> indices);
-
 /// How far a deformation can reach, kept when its vertices are gone.
 struct DeformedExtent {
     struct Joint {
@@ -51,6 +33,27 @@ struct DeformedExtent {
     std::vector<Joint> joints;    // those that pull
     std::vector<Bounds> targets;  // of what each target adds to a position, 0 among it
 };
+
+/// Of one primitive.
+struct Deformation {
+    std::size_t influencesPerVertex = 0;  // 0: no skin
+    std::vector<Influence> influences;    // that many for each vertex
+    std::vector<MorphTarget> targets;
+    // Its normals are those of faces, which have three vertices each, in order: found anew for each pose. Otherwise
+    // normals and tangents follow the joints and targets.
+    bool flat = false;
+    DeformedExtent extent;  // findExtent
+
+    std::size_t bytes() const;
+};
+
+/// Whether an instance bends this primitive of its mesh.
+bool bends(const Instance& instance, const Primitive& primitive);
+
+/// The vertices that makeFlat makes of a primitive with these indices.
+Deformation unshared(const Deformation& shared, std::span<const std::uint32_t> indices);
+
+DeformedExtent findExtent(const Deformation& deformation, const Primitive& primitive);
 /// As an instance has it: without a skin no joint pulls, and a rigid primitive has neither joints nor targets.
 DeformedExtent extentOf(const Instance& instance, const Primitive& primitive);
 

@@ -61,9 +61,6 @@ class Reader {
         for (std::size_t i = 0; i < samplers_.size(); ++i) checkSampler(samplers_[i]);
         const List channels = element_.list("channels");
         for (std::size_t i = 0; i < channels.size(); ++i) readChannel(channels[i], fileNodes, animation);
-        for (const Channel& channel : animation.channels)
-            animation.length =
-                std::max(animation.length, static_cast<double>(animation.curves[channel.curve].times.back()));
         return animation;
     }
 
@@ -114,8 +111,8 @@ class Reader {
         if (!curveOf_[number]) {
             curveOf_[number] = animation.curves.size();
             animation.curves.push_back(readCurve(sampler, interpolation, components));
+            if (property == AnimatedProperty::rotation) checkRotations(sampler, animation.curves.back());
         }
-        if (property == AnimatedProperty::rotation) checkRotations(sampler, animation.curves[*curveOf_[number]]);
         return *curveOf_[number];
     }
 

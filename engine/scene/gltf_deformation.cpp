@@ -76,8 +76,9 @@ void checkTarget(const Element& target, const Accessors& accessors, std::uint64_
 std::vector<glm::vec3> readDeltas(const Element& target, const Accessors& accessors, std::string_view key) {
     if (!target.has(key)) return {};
     const std::size_t number = target.requiredIndex(key, accessors.size(), "accessors");
-    std::vector<glm::vec3> deltas(static_cast<std::size_t>(accessors.use(number, "").count));
-    target.context().charge(deltas.size() * sizeof(glm::vec3), target.pathOf(key));
+    const std::uint64_t count = accessors.use(number, "").count;
+    target.context().charge(count * sizeof(glm::vec3), target.pathOf(key));
+    std::vector<glm::vec3> deltas(static_cast<std::size_t>(count));
     accessors.readFloats(number, target.pathOf(key), &deltas[0].x, 3);
     for (std::size_t i = 0; i < deltas.size(); ++i)
         for (int c = 0; c < 3; ++c)

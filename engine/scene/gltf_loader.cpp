@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "scene/deformation.hpp"
 #include "scene/gltf_file.hpp"
 #include "scene/gltf_mesh.hpp"
 #include "scene/gltf_motion.hpp"
@@ -175,6 +176,7 @@ class Builder {
         if (const std::uint64_t limit = node.context().limits.maxDraws; draws_ > limit)
             node.fail("mesh", fmt::format("is primitive {} to draw, the limit is {}", draws_, limit));
         for (const Primitive& primitive : drawn.primitives) {
+            if (bends(instance, primitive)) chargePosed(node, primitive);
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::vec3 inWorld(instance.worldFromMesh * glm::vec4(primitive.bounds.corner(corner), 1.0f));
                 if (!std::isfinite(inWorld.x) || !std::isfinite(inWorld.y) || !std::isfinite(inWorld.z))
@@ -185,6 +187,15 @@ class Builder {
         if (instance.name.empty()) instance.name = drawn.name;
         instance.mesh = placeOf_[mesh];
         scene_.instances.push_back(std::move(instance));
+    }
+
+    /// What an instance has of its own of a mesh that it bends: vertices, and how far they can reach.
+    static void chargePosed(const Element& node, const Primitive& primitive) {
+        const DeformedExtent& extent = primitive.deformation->extent;
+        node.context().charge(
+            primitive.vertices.size() * sizeof(Vertex) + primitive.extras.size() * sizeof(VertexExtra) +
+                2 * (extent.joints.size() * sizeof(DeformedExtent::Joint) + extent.targets.size() * sizeof(Bounds)),
+            node.pathOf("mesh"));
     }
 
     // The default material stays if it is used or the only one.

@@ -283,6 +283,7 @@ std::optional<Primitive> MeshReader::readPrimitive(const Element& element, const
         context.release(plan.vertexCount * plan.vertexBytes());
     }
     readTangents(plan, attributes, primitive);
+    if (deformation) deformation->extent = findExtent(*deformation, primitive);
     primitive.deformation = std::move(deformation);
     if (flat) context.release(indices * kPassingBytes);
     context.release(passing);

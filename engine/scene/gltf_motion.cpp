@@ -142,19 +142,28 @@ void MotionReader::readMotionAnimations(const Accessors& accessors) {
         }
     }
     std::erase_if(motion_.animations, [](const Animation& a) { return a.channels.empty(); });
+    for (Animation& animation : motion_.animations)
+        for (const Channel& channel : animation.channels)
+            animation.length =
+                std::max(animation.length, static_cast<double>(animation.curves[channel.curve].times.back()));
 }
 
 void MotionReader::readNodes() {
+    std::vector<std::vector<float>> weightsOfMesh(meshTargets_.size());
     const auto weightsOf = [&](const Element& node, std::size_t mesh) {
         std::vector<float> weights = node.numbers("weights", meshTargets_[mesh]);
-        if (weights.empty()) weights = meshes_[mesh].numbers("weights", meshTargets_[mesh]);
-        if (weights.empty()) weights.assign(meshTargets_[mesh], 0.0f);
-        return weights;
+        if (!weights.empty()) return weights;
+        std::vector<float>& common = weightsOfMesh[mesh];
+        if (common.empty()) common = meshes_[mesh].numbers("weights", meshTargets_[mesh]);
+        if (common.empty()) common.assign(meshTargets_[mesh], 0.0f);
+        return common;
     };
     for (const PlacedNode& placed : placed_) {
         if (nodeTargets_[placed.node] == 0) continue;
         const Element node = nodes_[placed.node];
         const std::size_t mesh = node.requiredIndex("mesh", meshes_.size(), "meshes");
+        // In the node, and in each pose
+        node.context().charge(2 * sizeof(float) * meshTargets_[mesh], node.path());
         const std::vector<float> weights = weightsOf(node, mesh);
         const bool used = std::any_of(weights.begin(), weights.end(), [](float w) { return w != 0.0f; });
         needs_[mesh].morphed = needs_[mesh].morphed || used;
@@ -183,8 +192,10 @@ void MotionReader::checkReach(const Scene& scene) const {
             weights[i] = std::max(weights[i], std::abs(static_cast<double>(w)));
     }
     for (const Animation& animation : motion_.animations) {
+        std::vector<double> lengths;
+        for (const Curve& curve : animation.curves) lengths.push_back(mostLength(curve));
         for (const Channel& channel : animation.channels) {
-            const double most = mostLength(animation.curves[channel.curve]);
+            const double most = lengths[channel.curve];
             double& reached = channel.property == AnimatedProperty::translation ? local[channel.node].offset
                               : channel.property == AnimatedProperty::weights   ? weights[channel.node]
                                                                                 : local[channel.node].scale;
@@ -212,7 +223,9 @@ void MotionReader::checkReach(const Scene& scene) const {
         double distance = 0.0;
         for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
             double own = farthest(primitive.bounds);
-            for (const Bounds& added : extentOf(instance, primitive).targets) own += weights[place] * farthest(added);
+            if (primitive.deformation)
+                for (const Bounds& added : primitive.deformation->extent.targets)
+                    own += weights[place] * farthest(added);
             distance = std::max(distance, own);
         }
         check(place, world[place].of(distance));

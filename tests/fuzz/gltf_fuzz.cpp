@@ -7,6 +7,8 @@
 #include <random>
 
 #include "hostile_scenes.hpp"
+#include "scene/animation.hpp"
+#include "scene/deformation.hpp"
 
 using namespace dioptre;
 using namespace dioptre::test;
@@ -37,6 +39,38 @@ bool finite(const float* values, std::size_t count) {
     return true;
 }
 
+void checkDeformation(const Deformation& d, std::size_t vertices) {
+    if (d.influences.size() != d.influencesPerVertex * vertices) fail("a vertex's influence is missing");
+    for (const Influence& influence : d.influences)
+        if (!finite(&influence.weight, 1) || influence.weight < 0.0f) fail("an influence has no weight");
+    for (const MorphTarget& target : d.targets)
+        for (const std::vector<glm::vec3>* deltas : {&target.positions, &target.normals, &target.tangents}) {
+            if (!deltas->empty() && deltas->size() != vertices) fail("a vertex's morph is missing");
+            for (const glm::vec3& delta : *deltas)
+                if (!finite(&delta.x, 3)) fail("a morph is not finite");
+        }
+}
+
+void checkMotion(const Scene& scene) {
+    if (!scene.motion) return;
+    for (const double seconds : {0.0, 0.3, 1e3}) {
+        const MotionPose pose = poseAt(*scene.motion, seconds);
+        for (const glm::dmat4& node : pose.worldFromNode) {
+            const glm::mat4 single(node);
+            if (!finite(&single[0][0], 16)) fail("a node goes to infinity");
+        }
+    }
+    for (const Instance& instance : scene.instances) {
+        if (instance.skin < 0) continue;
+        if (instance.skin >= static_cast<int>(scene.motion->skins.size())) fail("a skin is missing");
+        const Skin& skin = scene.motion->skins[static_cast<std::size_t>(instance.skin)];
+        for (const Primitive& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+            if (p.deformation)
+                for (const Influence& influence : p.deformation->influences)
+                    if (influence.joint >= skin.joints.size()) fail("a joint is missing");
+    }
+}
+
 // What the renderer takes for granted.
 void checkScene(const Scene& scene) {
     const auto checkSlot = [&](const TextureSlot& slot) {
@@ -48,14 +82,17 @@ void checkScene(const Scene& scene) {
             fail("an image's size is not that of its texels");
     for (const Material& m : scene.materials) {
         for (const TextureSlot& slot :
-             {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissiveTexture})
+             {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissiveTexture, m.occlusionTexture})
             checkSlot(slot);
         if (!finite(&m.baseColor.x, 4) || !finite(&m.emissive.x, 3) || !finite(&m.normalScale, 1))
             fail("a material is not finite");
     }
     for (const Mesh& mesh : scene.meshes) {
         for (const Primitive& p : mesh.primitives) {
-            if (p.indices.size() % 3 != 0) fail("a triangle is incomplete");
+            const std::size_t corners = p.topology == Topology::points ? 1 : p.topology == Topology::lines ? 2 : 3;
+            if (p.indices.size() % corners != 0) fail("a point, line or triangle is incomplete");
+            if (!p.extras.empty() && p.extras.size() != p.vertices.size()) fail("an extra is missing");
+            if (p.deformation) checkDeformation(*p.deformation, p.vertices.size());
             if (p.material < 0 || p.material >= static_cast<int>(scene.materials.size())) fail("a material is missing");
             for (const std::uint32_t index : p.indices)
                 if (index >= p.vertices.size()) fail("a vertex is missing");
@@ -72,6 +109,7 @@ void checkScene(const Scene& scene) {
     for (const Light& light : scene.lights)
         if (!finite(&light.color.x, 3) || !finite(&light.position.x, 3) || !finite(&light.direction.x, 3))
             fail("a light is not finite");
+    checkMotion(scene);
 }
 
 // Changes one value somewhere in the JSON; where that is data, its bytes.

@@ -197,8 +197,7 @@ TEST_F(MotionGLTest, LightsMoveWithTheirNodes) {
     gltf["extensions"] = Json::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 3}]}})");
     gltf["nodes"].push_back(Json::parse(R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})"));
     gltf["scenes"][0]["nodes"] = {0, 1};
-    addAnimation(gltf, 1, "translation", {0, 1}, {-0.5f, 0, -3.5f, 0.5f, 0, -3.5f}, "STEP");
-    addAnimation(gltf, 1, "scale", {0, 2}, {1, 1, 1, 1, 1, 1});
+    addAnimation(gltf, 1, "translation", {0, 1, 2}, {-0.5f, 0, -3.5f, 0.5f, 0, -3.5f, 0, 0, 0}, "STEP");
     const Scene scene = load(gltf);
     GpuScene gpu(scene);
     const auto brightness = [&] {
@@ -209,6 +208,9 @@ TEST_F(MotionGLTest, LightsMoveWithTheirNodes) {
     EXPECT_GT(left, 2.0 * right);
     pose(gpu, scene, 0.5);
     EXPECT_EQ(brightness(), std::pair(left, right));
+    pose(gpu, scene, 1.5);
+    const auto [leftLater, rightLater] = brightness();
+    EXPECT_GT(rightLater, 2.0 * leftLater);
 }
 
 TEST_F(MotionGLTest, TheViewMovesWithItsCameraUnlessAPoseIsGiven) {

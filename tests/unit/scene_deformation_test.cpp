@@ -70,6 +70,7 @@ TEST(DeformationTest, BoundsHoldAllPosedVertices) {
             for (MorphTarget& target : deformation->targets) target.positions.push_back(chance.point(1.0f));
         }
         if (!deformation->targets.empty()) deformation->targets.back().positions.clear();
+        deformation->extent = findExtent(*deformation, p);
         p.deformation = deformation;
         Instance instance;
         instance.skin = deformation->influencesPerVertex > 0 ? 0 : -1;
@@ -101,6 +102,7 @@ TEST(DeformationTest, BoundsOfOneJointAreTight) {
     auto deformation = std::make_shared<Deformation>();
     deformation->influencesPerVertex = 1;
     deformation->influences = {{3, 1.0f}, {3, 1.0f}};
+    deformation->extent = findExtent(*deformation, p);
     p.deformation = deformation;
     Instance instance;
     instance.skin = 0;
