@@ -184,9 +184,10 @@ void rejectExtras(const CLI::App& app) {
     if (extras.empty()) return;
     const auto dashed =
         std::find_if(extras.begin(), extras.end(), [](const std::string& s) { return s.starts_with('-'); });
-    const bool isOption = dashed != extras.end();
+    // A misspelt command comes first, and with it all that was meant for it.
+    const bool isCommand = app.get_parent() == nullptr && !extras.front().starts_with('-');
+    const bool isOption = !isCommand && dashed != extras.end();
     const std::string& first = isOption ? *dashed : extras.front();
-    const bool isCommand = !isOption && app.get_parent() == nullptr;
 
     std::vector<std::string> owned;
     if (isCommand) {

@@ -30,6 +30,7 @@ TEST_F(UsageTest, CommandsAndOptionsThatDoNotExistNameTheNearest) {
     expectRefused(run({"rendr"}), {"unknown command", "rendr", "render"});
     expectRefused(run({"render", "--apperture-mm", "3"}), {"unknown option", "--apperture-mm", "--aperture-mm"});
     expectRefused(run({"inspect", "--ipd=3"}), {"unknown option", "--ipd", "--ipd-mm"});
+    expectRefused(run({"rendr", "a.glb", "--out", "a.png"}), {"rendr", "render"});
     expectRefused(run({"compare", "a.png", "b.png", "c.png"}), {"unexpected argument", "c.png"});
 }
 
