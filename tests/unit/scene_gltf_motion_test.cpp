@@ -391,5 +391,35 @@ TEST(GltfRefusalTest, MorphTargets) {
     EXPECT_TRUE(contains(refusal(far), "nodes[0]: reaches")) << refusal(far);
 }
 
+/// As many nodes in all that have mesh 0.
+Json repeated(Json gltf, std::size_t count) {
+    for (std::size_t i = 1; i < count; ++i) {
+        gltf["nodes"].push_back({{"mesh", 0}});
+        gltf["scenes"][0]["nodes"].push_back(i);
+    }
+    return gltf;
+}
+
+// Each has vertices and weights of its own: a small file could ask for much.
+TEST(GltfMotionTest, WhatEachInstanceBendsCounts) {
+    LoadLimits limits;
+    limits.maxTotalBytes = 1'000'000;
+    EXPECT_EQ(refusal(repeated(morphedSquareGltf(0.5f, 0.5f, false), 2000), limits), "");
+    const std::string bent = refusal(repeated(morphedSquareGltf(0.5f, 0.5f, true), 2000), limits);
+    EXPECT_TRUE(contains(bent, "nodes[")) << bent;
+    EXPECT_TRUE(contains(bent, "bytes are in use")) << bent;
+
+    Json targets = morphedSquareGltf(0.5f, 0.5f, true);
+    std::vector<float> weights(3000, 0.0f);
+    weights[0] = 1.0f;
+    targets["meshes"][0]["weights"] = weights;
+    for (std::size_t i = 2; i < weights.size(); ++i)
+        targets["meshes"][0]["primitives"][0]["targets"].push_back(Json::object());
+    limits.maxTotalBytes = 20'000'000;
+    EXPECT_EQ(refusal(targets, limits), "");
+    const std::string many = refusal(repeated(targets, 2000), limits);
+    EXPECT_TRUE(contains(many, "bytes are in use")) << many;
+}
+
 }  // namespace
 }  // namespace dioptre
