@@ -193,6 +193,7 @@ void MotionReader::checkReach(const Scene& scene) const {
     }
     for (const Animation& animation : motion_.animations) {
         std::vector<double> lengths;
+        lengths.reserve(animation.curves.size());
         for (const Curve& curve : animation.curves) lengths.push_back(mostLength(curve));
         for (const Channel& channel : animation.channels) {
             const double most = lengths[channel.curve];

@@ -272,6 +272,7 @@ void makeDragons(Model& model) {
     const int lantern = addLantern(model);
     const std::vector<Dragon> dragons = allDragons();
     std::vector<int> meshes;
+    meshes.reserve(dragons.size());
     for (const Dragon& dragon : dragons) meshes.push_back(addDragon(model, dragon));
     struct Place {
         std::size_t kind;

@@ -12,6 +12,7 @@ constexpr float kSnout = 0.5f, kRoot = -0.36f;  // x of snout and tail root
 /// An outline at `t` from snout to tail root: a smooth curve through its values, round at the snout.
 float outline(const std::vector<float>& values, float t) {
     std::vector<vec3> points;
+    points.reserve(values.size());
     for (const float v : values) points.emplace_back(v, 0.0f, 0.0f);
     const float smooth = curvePoint(points, t).x;
     const float first = 1.0f / toFloat(static_cast<int>(values.size()) - 1);
