@@ -9,7 +9,7 @@ namespace {
 constexpr int kParts = 4;  // run side by side
 constexpr std::size_t kPerPart = 60;
 constexpr double kMostSeconds = 2.0;
-constexpr long kMostKilobytes = 512 * 1024;
+[[maybe_unused]] constexpr long kMostKilobytes = 512 * 1024;
 
 class HostileTest : public ProgramTest, public testing::WithParamInterface<int> {};
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int kParts = 4;  // run side by side
 constexpr double kMostSeconds = 2.0;
-constexpr long kMostKilobytes = 512 * 1024;
+[[maybe_unused]] constexpr long kMostKilobytes = 512 * 1024;
 
 // What a child process has to say, also when it crashes: lies in memory that both see.
 struct Progress {
