@@ -106,7 +106,8 @@ TEST(GltfLoaderTest, VertexColours) {
     const std::vector<glm::u16vec4> expected{{0xFFFF, 0, 0x3333, 0xFFFF}, {0, 0xFFFF, 0, 0xFFFF}, {0, 0, 0, 0xFFFF}};
     const auto colors = [](const Json& gltf) {
         std::vector<glm::u16vec4> all;
-        for (const VertexExtra& extra : load(gltf).meshes[0].primitives[0].extras) all.push_back(extra.color);
+        const Scene scene = load(gltf);
+        for (const VertexExtra& extra : scene.meshes[0].primitives[0].extras) all.push_back(extra.color);
         return all;
     };
     Json gltf = triangleGltf();
