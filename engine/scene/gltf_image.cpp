@@ -28,16 +28,18 @@ bool startsWith(std::span<const std::uint8_t> bytes, std::string_view magic, std
     return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
 
-// ISO 15948, 5.3: length, type, data, checksum; up to the end chunk or the first that is cut.
+// ISO 15948, 5.3: length, type, data, checksum; up to the end chunk or the first that is cut, which gives false.
 template <class Visit>  // (type and data)
-void forEachPngChunk(std::span<const std::uint8_t> bytes, const Visit& visit) {
+bool forEachPngChunk(std::span<const std::uint8_t> bytes, const Visit& visit) {
     constexpr std::size_t kSignatureBytes = 8, kFrameBytes = 12;
     for (std::size_t at = kSignatureBytes; bytes.size() - at >= kFrameBytes;) {
         const std::size_t length = bigEndian(bytes, at, 4);
-        if (length > bytes.size() - at - kFrameBytes || startsWith(bytes, "IEND", at + 4)) return;
+        if (startsWith(bytes, "IEND", at + 4)) return true;
+        if (length > bytes.size() - at - kFrameBytes) return false;
         visit(bytes.subspan(at + 4, length + 4));
         at += length + kFrameBytes;
     }
+    return true;
 }
 
 // The header chunk comes first (11.2.2).
@@ -124,6 +126,11 @@ bool isPng(std::span<const std::uint8_t> bytes) {
     return startsWith(bytes, "\x89PNG\r\n\x1a\n");
 }
 
+// The decoder takes memory for as long a chunk as the file says.
+bool hasCutPngChunk(std::span<const std::uint8_t> bytes) {
+    return isPng(bytes) && !forEachPngChunk(bytes, [](std::span<const std::uint8_t>) {});
+}
+
 // Whether that little data can be a picture that large: one that is not must not be allocated first.
 bool holds(std::span<const std::uint8_t> bytes, const ImageSize& size) {
     if (isPng(bytes)) return pngUnpackedBytes(bytes, size) <= (pngPackedBytes(bytes) + 1) * kDeflateLimit;
@@ -145,6 +152,7 @@ ImageSize checkedSize(std::span<const std::uint8_t> bytes, const Element& image)
     const auto limit = static_cast<std::uint64_t>(image.context().limits.maxImageSide);
     if (size->width > limit || size->height > limit)
         image.fail(fmt::format("is {} x {} texels, the limit is {} a side", size->width, size->height, limit));
+    if (hasCutPngChunk(bytes)) image.fail("cannot be decoded: a PNG chunk is longer than the file");
     if (!holds(bytes, *size))
         image.fail(fmt::format("cannot be decoded: its {} bytes cannot hold {} x {} texels", bytes.size(), size->width,
                                size->height));

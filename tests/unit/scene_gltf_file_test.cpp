@@ -182,6 +182,10 @@ TEST(GltfLimitTest, DataThatCannotFillAnImageIsRefusedBeforeDecoding) {
     png[18] = png[22] = '\x20';  // 8194 x 8193 texels from 17 bytes
     gltf["images"][0]["uri"] = dataUri(png);
     expectSays(refusal(gltf), "images[0]: cannot be decoded: its 74 bytes cannot hold 8194 x 8193 texels");
+    png = decodedBase64(std::string(kPng).substr(std::string(kPng).find(',') + 1));
+    png[33] = '\x6A';  // its data chunk says it is 1.7 GB
+    gltf["images"][0]["uri"] = dataUri(png);
+    expectSays(refusal(gltf), "images[0]: cannot be decoded: a PNG chunk is longer than the file");
     // Baseline frame header of 8192 x 8192, a scan and no more
     const std::string jpeg("\xFF\xD8\xFF\xC0\0\x0B\x08\x20\0\x20\0\1\1\x11\0\xFF\xDA\0\x08\1\1\0\0\x3F\0", 25);
     gltf["images"][0]["uri"] = dataUri(jpeg);
