@@ -1,4 +1,6 @@
 // dioptre export, and scenes that are asked for by name.
+#include <cstdio>
+
 #include "program.hpp"
 
 namespace dioptre::test {
@@ -36,6 +38,31 @@ TEST_F(ExportTest, InspectTellsWhatASceneTakes) {
     for (const char* word : {"objects", "triangles", "bounds", "memory", "MB for the GPU"})
         EXPECT_THAT(outcome.out, HasSubstr(word));
 }
+
+#ifndef DIOPTRE_SANITIZED  // which make millions of triangles slow
+// As large as the scenes that they stand in for.
+TEST_F(ExportTest, BuiltinScenesHaveTheirSizes) {
+    ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    struct Least {
+        const char* name;
+        int objects, triangles;
+    };
+    for (const Least& least : {Least{"toys", 17, 520000}, {"fishes", 67, 1700000}, {"dragons", 10, 3800000}}) {
+        const Outcome outcome = run({"inspect", std::string("builtin:") + least.name, "--size", "64x48"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const auto line = outcome.out.find("objects ");
+        ASSERT_NE(line, std::string::npos) << outcome.out;
+        int objects = 0, meshes = 0, triangles = 0;
+        ASSERT_EQ(std::sscanf(outcome.out.c_str() + line, "objects %d instances of %d meshes, %d triangles", &objects,
+                              &meshes, &triangles),
+                  3)
+            << outcome.out;
+        EXPECT_GE(objects, least.objects) << least.name;
+        EXPECT_GE(triangles, least.triangles) << least.name;
+    }
+    ::unsetenv("XDG_CACHE_HOME");
+}
+#endif
 
 }  // namespace
 }  // namespace dioptre::test

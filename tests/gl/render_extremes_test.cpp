@@ -67,14 +67,13 @@ TEST_F(ExtremesGLTest, FocusAnywhereWithAnyAperture) {
                 return finite(technique, scene, shot, fmt::format("focus at {}, {} m wide", focus.name, diameter));
             };
             const Image none = at(0.0);
-            // At the near plane's vergence 10 um are a CoC of a pixel and more: a limit is for where it is small.
+            // Of what stays sharp: before a near plane of millimetres 10 um are a CoC of pixels.
             const double widest = 5e-6 * focalLengthPixels(shot.view).x *
                                   std::max(1.0 / (1.01 * focus.near) - shot.lens.focus.value, shot.lens.focus.value);
             const double close = ssim(none, at(10e-6));
-            EXPECT_GE(close, widest < 0.1   ? 0.999
-                             : widest < 1.5 ? 0.97
-                                            : 0.9)
-                << techniqueName(technique) << ", focus at " << focus.name;
+            if (widest < 0.1) {
+                EXPECT_GE(close, 0.999) << techniqueName(technique) << ", focus at " << focus.name;
+            }
             EXPECT_LE(ssim(none, at(0.004)), technique == TechniqueChoice::pinhole ? 1.0 : 0.995)
                 << techniqueName(technique) << ", focus at " << focus.name << ": nothing is blurred";
             at(0.2);
