@@ -189,13 +189,21 @@ std::vector<Setting> makeTable() {
         row<&S::render, &Render::technique>(
             {.group = "render",
              .name = "technique",
-             .help = "way of drawing defocus; pinhole draws none, all is sharp; reference is slow and exact",
-             .choices = {"pinhole", "mipmap", "reference"}}),
-        row<&S::render, &Render::samples>({.group = "render",
-                                           .name = "samples",
-                                           .help = "points of the lens that the reference averages",
-                                           .min = 1.0,
-                                           .max = 65536.0}),
+             .help = "way of drawing defocus; pinhole draws none, all is sharp; mipmap is fast, accumulate accurate, "
+                     "reference slow and exact",
+             .choices = {"pinhole", "mipmap", "accumulate", "reference"}}),
+        row<&S::render, &Render::samples>(
+            {.group = "render",
+             .name = "samples",
+             .help = "points of the lens that are averaged: of accumulate (32 where not said), of the reference (512)",
+             .min = 1.0,
+             .max = 65536.0}),
+        row<&S::render, &Render::subsamples>(
+            {.group = "render",
+             .name = "subsamples",
+             .help = "more points of the lens that each of accumulate's serves, on average, at a fraction of the price",
+             .min = 0.0,
+             .max = 16.0}),
         row<&S::render, &Render::msaa>({.group = "render",
                                         .name = "msaa",
                                         .help = "samples per pixel against jagged edges",

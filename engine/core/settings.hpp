@@ -64,7 +64,7 @@ struct ViewSettings {
     std::optional<double> screenDistanceMm;
 };
 
-enum class TechniqueChoice { pinhole, mipmap, reference };
+enum class TechniqueChoice { pinhole, mipmap, accumulate, reference };
 enum class ToneMapChoice { none, neutral };
 enum class ShowChoice { none, vergence, coc, dob, don, level, pyramid };
 
@@ -77,8 +77,9 @@ struct ShowStage {
 
 struct RenderSettings {
     TechniqueChoice technique = TechniqueChoice::mipmap;
-    int msaa = 4;       // samples per pixel: 0 or 4
-    int samples = 512;  // lens samples of the reference
+    int msaa = 4;                // samples per pixel: 0 or 4
+    std::optional<int> samples;  // lens samples of accumulate or reference; none: the technique's own
+    int subsamples = 4;          // of each of accumulate's samples
     ShowStage show;
     double exposureEv = 0.0;
     ToneMapChoice tonemap = ToneMapChoice::none;

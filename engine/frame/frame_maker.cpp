@@ -44,6 +44,10 @@ std::string_view dynamicsName(DynamicsChoice choice) {
     return "natural";
 }
 
+int samplesOf(const RenderSettings& settings) {
+    return settings.samples.value_or(defaultSamples(settings.technique));
+}
+
 /// "mipmap, msaa 4": the technique with the dials that it has.
 std::string planText(const RenderSettings& settings) {
     switch (settings.technique) {
@@ -51,8 +55,10 @@ std::string planText(const RenderSettings& settings) {
             return fmt::format("pinhole, msaa {}", settings.msaa);
         case TechniqueChoice::mipmap:
             return fmt::format("mipmap, msaa {}", settings.msaa);
+        case TechniqueChoice::accumulate:
+            return fmt::format("accumulate, {} samples, {} sub-samples each", samplesOf(settings), settings.subsamples);
         case TechniqueChoice::reference:
-            return fmt::format("reference, {} samples", settings.samples);
+            return fmt::format("reference, {} samples", samplesOf(settings));
     }
     return "";
 }
@@ -109,7 +115,7 @@ const Settings& requireDrawable(const Settings& settings) {
     if (whole.width > width || whole.height > height)
         throw InputError(fmt::format("--size: {}x{} makes a picture of {}x{}, this OpenGL draws at most {}x{}",
                                      view.size.width, view.size.height, whole.width, whole.height, width, height));
-    const int msaa = settings.render.technique == TechniqueChoice::reference ? 0 : settings.render.msaa;
+    const int msaa = usesMsaa(settings.render.technique) ? settings.render.msaa : 0;
     if (!possible(GL_RGBA16F, msaa, view.size) || !possible(GL_RGBA32F, 0, whole))
         throw InputError(
             fmt::format("--size: {}x{} with --msaa {} takes more memory in one texture than this OpenGL gives",
@@ -251,7 +257,8 @@ const FrameReport& FrameMaker::make(const Input& input) {
     const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
     for (EyePicture& eye : eyes_)
         eye.picture = &eye.technique->draw({scene_, eye.view, report_.lens.lens, exposure, settings_.render.msaa,
-                                            settings_.render.show, report_.passes, settings_.render.samples, 0,
+                                            settings_.render.show, report_.passes, samplesOf(settings_.render),
+                                            settings_.render.subsamples, 0,
                                             input.budgetMilliseconds / static_cast<double>(eyes_.size())});
     composed_ = &compositor_.compose(composition(), report_.passes);
     glFinish();

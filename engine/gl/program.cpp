@@ -94,10 +94,15 @@ Program::Program(std::span<const Stage> stages, const std::vector<std::string>& 
 FullscreenPass::FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines)
     : program_("common/fullscreen.vert.glsl", fragment, defines), vertexArray_(makeVertexArray("full screen")) {}
 
-void FullscreenPass::draw() const {
+FullscreenPass FullscreenPass::layered(std::string_view fragment, std::vector<std::string> defines) {
+    if (GLAD_GL_ARB_shader_viewport_layer_array) defines.emplace_back("LAYERED");
+    return FullscreenPass(fragment, defines);
+}
+
+void FullscreenPass::draw(int layers) const {
     program_.use();
     glBindVertexArray(vertexArray_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, layers);
 }
 
 }  // namespace dioptre

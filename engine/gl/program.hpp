@@ -39,6 +39,12 @@ class Program : public Handle<ProgramTraits> {
     void set(const char* uniform, const glm::vec4& v) const {
         glProgramUniform4f(name(), location(uniform), v.x, v.y, v.z, v.w);
     }
+    void set(const char* uniform, std::span<const int> v) const {
+        glProgramUniform1iv(name(), location(uniform), static_cast<GLsizei>(v.size()), v.data());
+    }
+    void set(const char* uniform, std::span<const glm::vec2> v) const {
+        glProgramUniform2fv(name(), location(uniform), static_cast<GLsizei>(v.size()), &v[0].x);
+    }
     void set(const char* uniform, std::span<const glm::mat4> m) const {
         glProgramUniformMatrix4fv(name(), location(uniform), static_cast<GLsizei>(m.size()), GL_FALSE, &m[0][0][0]);
     }
@@ -54,8 +60,11 @@ class FullscreenPass {
   public:
     FullscreenPass() = default;
     explicit FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines = {});
+    /// To every layer of a layered framebuffer: gl_Layer is the layer. More than one only where the vertex stage can
+    /// choose it (GL_ARB_shader_viewport_layer_array).
+    static FullscreenPass layered(std::string_view fragment, std::vector<std::string> defines = {});
     const Program& program() const { return program_; }
-    void draw() const;
+    void draw(int layers = 1) const;
 
   private:
     Program program_;

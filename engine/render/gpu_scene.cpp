@@ -15,38 +15,6 @@ namespace {
 constexpr float kSkyAlone = 0.75f;
 constexpr float kSkyBesideLights = 0.15f;
 
-struct DrawCommand {
-    GLuint count, instanceCount, firstIndex;
-    GLint baseVertex;
-    GLuint baseInstance;
-};
-
-/// Axis-aligned box around a transformed box, by Arvo 1990.
-struct Box {
-    glm::dvec3 centre, half;
-};
-Box transformed(const glm::dmat4& m, const Bounds& b) {
-    const glm::dvec3 half = glm::dvec3(b.size()) * 0.5;
-    const glm::dmat3 r(m);
-    return {glm::dvec3(m * glm::dvec4(glm::dvec3(b.centre()), 1.0)),
-            glm::abs(r[0]) * half.x + glm::abs(r[1]) * half.y + glm::abs(r[2]) * half.z};
-}
-
-/// False only if no point of the box can be inside the frustum (tangents at unit distance, looking along -z), seen from
-/// any point of the lens: that moves it sideways by up to E |Df d - 1|.
-bool mayBeSeen(const View& view, const Lens* lens, const Box& box) {
-    const Frustum& f = view.frustum;
-    double blur = 0.0;
-    if (lens)
-        for (const double d : {-box.centre.z - box.half.z, -box.centre.z + box.half.z})
-            blur = std::max(blur, lens->apertureRadius.value * std::abs(lens->focus.value * d - 1.0));
-    const glm::dvec3 half = box.half + glm::dvec3(blur, blur, 0.0);
-    const glm::dvec3 inward[] = {{1.0, 0.0, f.left}, {-1.0, 0.0, -f.right}, {0.0, 1.0, f.bottom}, {0.0, -1.0, -f.top}};
-    for (const glm::dvec3& n : inward)
-        if (glm::dot(n, box.centre) + glm::dot(glm::abs(n), half) < 0.0) return false;
-    return -box.centre.z + box.half.z >= view.near.value;
-}
-
 // Variants of the shaders; all but the first are names that they know.
 enum Feature : unsigned {
     kDepthOnly = 1u << 0,
@@ -86,23 +54,14 @@ GLenum glMode(Topology topology) {
 
 }  // namespace
 
-// What prepare() gathers on the way.
-struct GpuScene::Preparation {
-    int matrices = 1;
-    std::vector<gpu::InstanceData> instances;
-    std::vector<DrawCommand> commands;
-};
-
 GpuScene::GpuScene(const Scene& scene)
     : vertexArray_(makeVertexArray("scene")), extrasVertexArray_(makeVertexArray("scene, with extras")) {
     textures_ = uploadTextures(scene);
-    for (const auto& [key, texture] : textures_) bytes_ += texture.bytes();
     uploadMaterials(scene);
     uploadGeometry(scene);
     makePrograms();
     skyRadiance_ = scene.lights.empty() ? kSkyAlone : kSkyBesideLights;
     lights_ = scene.lights.empty() ? std::vector<Light>{keyLight()} : scene.lights;
-    lightBuffer_ = Buffer(lights_.size() * sizeof(gpu::LightData), nullptr, true, "lights");
     if (scene.motion) {
         pose_ = poseAt(*scene.motion, 0.0);
         applyPose();
@@ -113,7 +72,7 @@ void GpuScene::pose(const MotionPose& pose, PassLog& log) {
     if (pose == pose_) return;
     PassScope scope(log, "pose");
     pose_ = pose;
-    ++poseNumber_;
+    ++version_;
     applyPose();
 }
 
@@ -162,20 +121,24 @@ void GpuScene::uploadGeometry(const Scene& scene) {
     vertices_ = std::move(geometry.vertices);
     extras_ = std::move(geometry.extras);
     indices_ = std::move(geometry.indices);
-    bytes_ += vertices_.bytes() + extras_.bytes() + indices_.bytes();
     if (!geometry.posedVertices.empty()) deformer_.emplace(scene.motion);
+    for (const PrimitiveRange& range : geometry.primitives) {
+        levels_.push_back({range.indices});
+        indexCount_ += range.indices.count;
+    }
+    firstPrimitive_ = geometry.firstPrimitive;
     std::size_t posed = 0;
     for (const Instance& instance : scene.instances) {
         const auto& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         const auto first = geometry.firstPrimitive[static_cast<std::size_t>(instance.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const Primitive& primitive = mesh.primitives[i];
-            PrimitiveRange range = geometry.primitives[first + i];
+            std::uint32_t baseVertex = geometry.primitives[first + i].baseVertex;
             int bent = -1;
             if (bends(instance, primitive)) {
                 const std::uint32_t firstPosed = geometry.posedVertices[posed++];
-                bent = static_cast<int>(deformer_->add(instance, primitive, range.baseVertex, firstPosed));
-                range.baseVertex = firstPosed;
+                bent = static_cast<int>(deformer_->add(instance, primitive, baseVertex, firstPosed));
+                baseVertex = firstPosed;
             }
             if (primitive.indices.empty()) continue;
             const auto material = static_cast<std::uint32_t>(primitive.material);
@@ -185,25 +148,42 @@ void GpuScene::uploadGeometry(const Scene& scene) {
                               !primitive.extras.empty(),
                               primitive.lit,
                               primitive.topology};
-            items_.push_back({state, range, glm::dmat4(instance.worldFromMesh), primitive.bounds, instance.node, bent});
-            blendedItems_ += state.blended ? 1 : 0;
+            items_.push_back({state, static_cast<std::uint32_t>(first + i), baseVertex,
+                              glm::dmat4(instance.worldFromMesh), primitive.bounds, instance.node, bent});
         }
     }
-    if (deformer_) {
-        deformer_->upload();
-        bytes_ += deformer_->bytes();
-    }
+    if (deformer_) deformer_->upload();
     // Items that share all state are drawn by one call.
     std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.state < b.state; });
     std::vector<std::uint32_t> drawIndex(items_.size());
     std::iota(drawIndex.begin(), drawIndex.end(), 0u);
     drawIndices_ = Buffer(std::span<const std::uint32_t>(drawIndex), "draw indices");
-    instances_ = Buffer(items_.size() * sizeof(gpu::InstanceData), nullptr, true, "instances");
-    // A blended item is drawn as what is opaque of it, then its back and its front.
-    commands_ = Buffer((items_.size() + 2 * blendedItems_) * sizeof(DrawCommand), nullptr, true, "draw commands");
     describeVertices(vertexArray_, vertices_, indices_, drawIndices_);
     describeVertices(extrasVertexArray_, vertices_, indices_, drawIndices_);
     if (extras_) describeExtras(extrasVertexArray_, extras_);
+}
+
+void GpuScene::addLevel(std::size_t mesh, std::size_t primitive, std::span<const std::uint32_t> indices) {
+    const std::size_t needed = (indexCount_ + indices.size()) * sizeof(std::uint32_t);
+    if (needed > indices_.bytes()) {
+        // All levels of a primitive together have no more triangles than the first: twice is enough.
+        Buffer larger(std::max(needed, 2 * indices_.bytes()), nullptr, true, "indices");
+        glCopyNamedBufferSubData(indices_.name(), larger.name(), 0, 0, static_cast<GLsizeiptr>(indices_.bytes()));
+        indices_ = std::move(larger);
+        for (const VertexArray* array : {&vertexArray_, &extrasVertexArray_})
+            glVertexArrayElementBuffer(array->name(), indices_.name());
+    }
+    indices_.update(indices.data(), indices.size_bytes(), indexCount_ * sizeof(std::uint32_t));
+    const auto count = static_cast<std::uint32_t>(indices.size());
+    levels_[firstPrimitive_[mesh] + primitive].push_back({indexCount_, count});
+    indexCount_ += count;
+    ++version_;
+}
+
+std::size_t GpuScene::bytes() const {
+    std::size_t sum = vertices_.bytes() + extras_.bytes() + indices_.bytes();
+    for (const auto& [key, texture] : textures_) sum += texture.bytes();
+    return deformer_ ? sum + deformer_->bytes() : sum;
 }
 
 void GpuScene::makePrograms() {
@@ -231,10 +211,10 @@ VergenceRange GpuScene::vergenceRange(const View& view) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
     VergenceRange range;
     for (const Item& item : items_) {
-        const Box box = transformed(viewFrom * item.worldFromMesh, item.bounds);
+        const ViewBox box = boxInView(viewFrom * item.worldFromMesh, item.bounds);
         if (!mayBeSeen(view, nullptr, box)) continue;
-        const double near = std::max(view.near.value, -box.centre.z - box.half.z);
-        const double far = std::max(near, -box.centre.z + box.half.z);
+        const double near = std::max(view.near.value, box.nearest());
+        const double far = std::max(near, box.farthest());
         range.nearest = range.anything ? std::max(range.nearest, 1.0 / near) : 1.0 / near;
         range.farthest = range.anything ? std::min(range.farthest, 1.0 / far) : 1.0 / far;
         range.anything = true;
@@ -247,79 +227,111 @@ int GpuScene::mostMatrices() {
 }
 
 void GpuScene::drawRadiance(const View& view, float exposure) const {
-    prepare(view, nullptr, 1);
+    see(whole_, view, nullptr);
+    arrange(whole_, 1);
     setLodBias(0.0f);
     const glm::mat4 clip(clipFromView(view));
     const Through through{{&clip, 1}, exposure};
-    drawRuns(runs_, Phase::surface, through);
-    if (blendedRuns_.empty()) return;
-    drawBlended(through);
-    const auto first = std::find_if(runs_.begin(), runs_.end(), [](const Run& run) { return run.state.blended; });
+    const std::vector<Run>& runs = whole_.runs_;
+    drawRuns(whole_, runs, Phase::surface, through);
+    if (whole_.blendedRuns_.empty()) return;
+    drawBlended(whole_, through);
+    const auto first = std::find_if(runs.begin(), runs.end(), [](const Run& run) { return run.state.blended; });
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    drawRuns({first, runs_.end()}, Phase::depth, through);
+    drawRuns(whole_, {first, runs.end()}, Phase::depth, through);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void GpuScene::drawDepth(const View& view) const {
-    prepare(view, nullptr, 1);
+    see(whole_, view, nullptr);
+    arrange(whole_, 1);
     setLodBias(0.0f);
     const glm::mat4 clip(clipFromView(view));
-    drawRuns(runs_, Phase::depth, {{&clip, 1}, 1.0f});
+    drawRuns(whole_, whole_.runs_, Phase::depth, {{&clip, 1}});
 }
 
-void GpuScene::prepareThroughLens(const View& view, const Lens& lens, int matrices) const {
-    prepare(view, &lens, matrices);
-}
-
-void GpuScene::drawThroughLens(std::span<const glm::mat4> clipFromView, float exposure, float lodBias) const {
+void GpuScene::drawThroughLens(const DrawList& list, std::span<const glm::mat4> clipFromView, float exposure,
+                               float lodBias, int firstLayer) const {
     setLodBias(lodBias);
-    drawRuns(runs_, Phase::surface, {clipFromView, exposure});
-    drawBlended({clipFromView, exposure});
+    const Through through{clipFromView, exposure, firstLayer};
+    drawRuns(list, list.runs_, Phase::surface, through);
+    drawBlended(list, through);
 }
 
-void GpuScene::append(Preparation& preparation, std::vector<Run>& runs, std::size_t item, Faces faces) const {
-    const State& state = items_[item].state;
-    const PrimitiveRange& range = items_[item].range;
-    if (runs.empty() || runs.back().state != state || runs.back().faces != faces)
-        runs.push_back({state, faces, preparation.commands.size()});
-    Run& run = runs.back();
-    ++run.commandCount;
-    if (state.topology == Topology::triangles)
-        run.triangles += range.indexCount / 3 * static_cast<std::uint64_t>(preparation.matrices);
-    preparation.commands.push_back({range.indexCount, static_cast<GLuint>(preparation.matrices), range.firstIndex,
-                                    static_cast<GLint>(range.baseVertex), static_cast<GLuint>(item)});
-}
-
-void GpuScene::prepare(const View& view, const Lens* lens, int matrices) const {
+void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
-    // What this view sees, in order of state; the matrices are made eye-relative in double precision.
-    Preparation seen{matrices, std::vector<gpu::InstanceData>(items_.size()), {}};
-    std::vector<std::pair<double, std::size_t>> blended;  // depth of the centre, item
-    runs_.clear();
-    blendedRuns_.clear();
+    // The matrices are made eye-relative in double precision.
+    std::vector<gpu::InstanceData> instances(items_.size());
+    list.seen_.clear();
+    list.blended_.clear();
+    list.runs_.clear();
+    list.blendedRuns_.clear();
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         const glm::dmat4 viewFromMesh = viewFrom * item.worldFromMesh;
-        const Box box = transformed(viewFromMesh, item.bounds);
+        const ViewBox box = boxInView(viewFromMesh, item.bounds);
         if (!mayBeSeen(view, lens, box)) continue;
-        seen.instances[i] = {glm::mat4(viewFromMesh), glm::uvec4(item.state.material, 0, 0, 0)};
-        append(seen, runs_, i, Faces::asMaterial);
-        if (item.state.blended) blended.emplace_back(-box.centre.z, i);
+        instances[i] = {glm::mat4(viewFromMesh), glm::uvec4(item.state.material, 0, 0, 0)};
+        if (item.state.blended) list.blended_.push_back(list.seen_.size());
+        const std::vector<IndexRange>& levels = levels_[item.primitive];
+        const bool triangles = item.state.topology == Topology::triangles;
+        list.seen_.push_back({static_cast<std::uint32_t>(i), box, item.state.blended,
+                              triangles ? levels.front().count / 3 : 0,
+                              item.bent < 0 ? static_cast<int>(levels.size()) : 1});
     }
-    std::stable_sort(blended.begin(), blended.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [depth, i] : blended) {
-        const State& state = items_[i].state;
-        const bool twice = materials_[state.material].doubleSided && state.topology == Topology::triangles;
-        if (twice) append(seen, blendedRuns_, i, Faces::back);
-        append(seen, blendedRuns_, i, twice ? Faces::front : Faces::asMaterial);
-    }
-    if (seen.commands.empty()) return;
-    instances_.update(seen.instances.data(), seen.instances.size() * sizeof(gpu::InstanceData));
-    commands_.update(seen.commands.data(), seen.commands.size() * sizeof(DrawCommand));
+    std::stable_sort(list.blended_.begin(), list.blended_.end(), [&](std::size_t a, std::size_t b) {
+        return list.seen_[a].box.centre.z < list.seen_[b].box.centre.z;
+    });
+    if (list.seen_.empty()) return;
+    const auto fill = [](Buffer& buffer, const auto& data, const char* label) {
+        const std::size_t bytes = data.size() * sizeof(data[0]);
+        if (buffer.bytes() != bytes) buffer = Buffer(bytes, nullptr, true, label);
+        buffer.update(data.data(), bytes);
+    };
+    fill(list.instances_, instances, "instances");
     std::vector<gpu::LightData> lights;
+    lights.reserve(lights_.size());
     for (const Light& light : lights_) lights.push_back(lightInView(light, viewFrom));
-    lightBuffer_.update(lights.data(), lights.size() * sizeof(gpu::LightData));
-    up_ = glm::vec3(viewFrom[1]);
+    fill(list.lights_, lights, "lights");
+    list.up_ = glm::vec3(viewFrom[1]);
+}
+
+void GpuScene::arrange(DrawList& list, int matrices, std::span<const std::int8_t> levels) const {
+    list.runs_.clear();
+    list.blendedRuns_.clear();
+    list.arranged_.clear();
+    const auto levelOf = [&](std::size_t i) { return levels.empty() ? std::int8_t{0} : levels[i]; };
+    for (std::size_t i = 0; i < list.seen_.size(); ++i)
+        if (levelOf(i) >= 0) append(list, list.runs_, list.seen_[i], matrices, levelOf(i), Faces::asMaterial);
+    // A blended item is drawn as what is opaque of it, then its back and its front.
+    for (const std::size_t i : list.blended_) {
+        if (levelOf(i) < 0) continue;
+        const DrawList::Seen& seen = list.seen_[i];
+        const State& state = items_[seen.item].state;
+        const bool twice = materials_[state.material].doubleSided && state.topology == Topology::triangles;
+        if (twice) append(list, list.blendedRuns_, seen, matrices, levelOf(i), Faces::back);
+        append(list, list.blendedRuns_, seen, matrices, levelOf(i), twice ? Faces::front : Faces::asMaterial);
+    }
+    if (list.arranged_.empty()) return;
+    const std::size_t bytes = list.arranged_.size() * sizeof(DrawList::Command);
+    // Room for all items, so that another arrangement of the same ones needs no other buffer.
+    const std::size_t room = (list.seen_.size() + 2 * list.blended_.size()) * sizeof(DrawList::Command);
+    if (list.commands_.bytes() < room) list.commands_ = Buffer(room, nullptr, true, "draw commands");
+    list.commands_.update(list.arranged_.data(), bytes);
+}
+
+void GpuScene::append(DrawList& list, std::vector<Run>& runs, const DrawList::Seen& seen, int matrices, int level,
+                      Faces faces) const {
+    const Item& item = items_[seen.item];
+    if (runs.empty() || runs.back().state != item.state || runs.back().faces != faces)
+        runs.push_back({item.state, faces, list.arranged_.size()});
+    const IndexRange& range = levels_[item.primitive][static_cast<std::size_t>(level)];
+    Run& run = runs.back();
+    ++run.commandCount;
+    if (item.state.topology == Topology::triangles)
+        run.triangles += range.count / 3 * static_cast<std::uint64_t>(matrices);
+    list.arranged_.push_back({range.count, static_cast<GLuint>(matrices), range.first,
+                              static_cast<GLint>(item.baseVertex), static_cast<GLuint>(seen.item)});
 }
 
 // In the samplers: a bias in the shaders costs a CPU rasteriser 40 % of a pinhole frame, whatever its value.
@@ -330,22 +342,22 @@ void GpuScene::setLodBias(float bias) const {
     lodBias_ = bias;
 }
 
-void GpuScene::drawBlended(const Through& through) const {
-    if (blendedRuns_.empty()) return;
+void GpuScene::drawBlended(const DrawList& list, const Through& through) const {
+    if (list.blendedRuns_.empty()) return;
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
-    drawRuns(blendedRuns_, Phase::blended, through);
+    drawRuns(list, list.blendedRuns_, Phase::blended, through);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
 }
 
-void GpuScene::drawRuns(std::span<const Run> runs, Phase phase, const Through& through) const {
+void GpuScene::drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const {
     if (runs.empty()) return;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list.instances_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materialBuffer_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, lightBuffer_.name());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, list.lights_.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.commands_.name());
     glEnable(GL_DEPTH_TEST);
 
     const Program* current = nullptr;
@@ -355,14 +367,15 @@ void GpuScene::drawRuns(std::span<const Run> runs, Phase phase, const Through& t
             program.use();
             program.set("clipFromView", through.clipFromView);
             program.set("exposure", through.exposure);
-            program.set("up", glm::vec4(up_, skyRadiance_));
+            program.set("up", glm::vec4(list.up_, skyRadiance_));
+            program.set("firstLayer", through.firstLayer);
             program.set("lightCount", static_cast<int>(lights_.size()));
             current = &program;
         }
         bind(run);
         trianglesDrawn_ += run.triangles;
         glMultiDrawElementsIndirect(glMode(run.state.topology), GL_UNSIGNED_INT,
-                                    reinterpret_cast<const void*>(run.firstCommand * sizeof(DrawCommand)),
+                                    reinterpret_cast<const void*>(run.firstCommand * sizeof(DrawList::Command)),
                                     static_cast<GLsizei>(run.commandCount), 0);
     }
     // Full-screen passes rely on these.

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
@@ -24,6 +23,7 @@
 #include "optics/lens.hpp"
 #include "optics/view.hpp"
 #include "render/deformer.hpp"
+#include "render/draw_list.hpp"
 #include "render/scene_upload.hpp"
 #include "scene/scene.hpp"
 
@@ -47,8 +47,12 @@ class GpuScene {
     /// Moves what hangs from nodes, bends what is skinned or morphed: once for all drawings that follow. `pose` is one
     /// of the scene's motion. Nothing is done where it is the pose before.
     void pose(const MotionPose& pose, PassLog& log);
-    /// Another number with each other pose.
-    std::uint64_t poseNumber() const { return poseNumber_; }
+
+    /// A primitive's next level of detail (scene/lod.hpp), level 1 first: for all instances that do not bend it.
+    void addLevel(std::size_t mesh, std::size_t primitive, std::span<const std::uint32_t> indices);
+
+    /// Another number with each other pose or further level of detail.
+    std::uint64_t version() const { return version_; }
 
     /// Draws what `view` sees to the bound framebuffer: radiance × exposure and depth, or depth alone. The depth
     /// buffer must have been cleared to 0 (reversed depth). The depth left is that of the surface which gives the pixel
@@ -56,36 +60,32 @@ class GpuScene {
     void drawRadiance(const View& view, float exposure) const;
     void drawDepth(const View& view) const;
 
-    /// The same through points of a lens. Prepared once for all of them: what any point of `lens` can see, drawn by
-    /// each call as often as it has matrices, matrix i to layer i of the bound layered framebuffer.
-    void prepareThroughLens(const View& view, const Lens& lens, int matrices) const;
-    /// Exactly as many matrices as prepared. `lodBias` is added to the level at which textures are read. Depth is left
-    /// by opaque surfaces only.
-    void drawThroughLens(std::span<const glm::mat4> clipFromView, float exposure, float lodBias) const;
+    /// What `view` sees or, with a lens, what any of its points does. Draws nothing before it is arranged.
+    void see(DrawList& list, const View& view, const Lens* lens) const;
+    /// Each seen item at a level of detail (in the order of list.seen(); DrawList::kHidden: not at all; none given:
+    /// all at level 0), as often as a call will have matrices.
+    void arrange(DrawList& list, int matrices, std::span<const std::int8_t> levels = {}) const;
+    /// Exactly as many matrices as arranged for, matrix i to layer `firstLayer` + i of the bound layered framebuffer.
+    /// `lodBias` is added to the level at which textures are read. Depth is left by opaque surfaces only.
+    void drawThroughLens(const DrawList& list, std::span<const glm::mat4> clipFromView, float exposure, float lodBias,
+                         int firstLayer = 0) const;
 
     /// Of what `view` sees: conservative, from the pose's bounding boxes, nearest bounded by the view's near plane.
     VergenceRange vergenceRange(const View& view) const;
 
-    std::size_t bytes() const { return bytes_; }
+    std::size_t bytes() const;
     /// Triangles sent to the GL so far, counted once for each matrix.
     std::uint64_t trianglesDrawn() const { return trianglesDrawn_; }
 
   private:
-    // What one call can draw with; in the order that changes least.
-    struct State {
-        bool blended = false;
-        std::uint32_t material = 0;
-        bool mirrored = false;  // negative determinant: front faces run clockwise
-        bool extras = false;
-        bool lit = true;
-        Topology topology = Topology::triangles;
-
-        auto operator<=>(const State&) const = default;
-    };
+    using State = DrawList::State;
+    using Run = DrawList::Run;
+    using Faces = DrawList::Faces;
     // One primitive of one instance.
     struct Item {
         State state;
-        PrimitiveRange range;
+        std::uint32_t primitive = 0;  // its indices: levels_
+        std::uint32_t baseVertex = 0;
         glm::dmat4 worldFromMesh{1.0};
         Bounds bounds;
         int node = -1;  // of the motion; -1: stands still
@@ -104,52 +104,41 @@ class GpuScene {
     };
     // What is drawn of a surface; `blended`: what the others see through it.
     enum class Phase { surface, blended, depth };
-    enum class Faces { asMaterial, back, front };
-    // Commands of equal state.
-    struct Run {
-        State state;
-        Faces faces = Faces::asMaterial;
-        std::size_t firstCommand = 0, commandCount = 0;
-        std::uint64_t triangles = 0;
-    };
     struct Through {
         std::span<const glm::mat4> clipFromView;
         float exposure = 1.0f;
+        int firstLayer = 0;
     };
-    struct Preparation;
 
     void uploadGeometry(const Scene& scene);
     void uploadMaterials(const Scene& scene);
     void applyPose();
     void makePrograms();
     unsigned featuresOf(const State& state, Phase phase) const;
-    void prepare(const View& view, const Lens* lens, int matrices) const;
-    void append(Preparation& preparation, std::vector<Run>& runs, std::size_t item, Faces faces) const;
+    void append(DrawList& list, std::vector<Run>& runs, const DrawList::Seen& seen, int matrices, int level,
+                Faces faces) const;
     void setLodBias(float bias) const;
-    void drawBlended(const Through& through) const;
-    void drawRuns(std::span<const Run> runs, Phase phase, const Through& through) const;
+    void drawBlended(const DrawList& list, const Through& through) const;
+    void drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const;
     void bind(const Run& run) const;
 
-    std::vector<Item> items_;  // sorted by state
-    std::size_t blendedItems_ = 0;
+    std::vector<Item> items_;                      // sorted by state
+    std::vector<std::vector<IndexRange>> levels_;  // of each primitive, level 0 first
+    std::vector<std::size_t> firstPrimitive_;      // of each mesh, in levels_
+    std::uint32_t indexCount_ = 0;                 // of all levels
     std::vector<BoundMaterial> materials_;
     std::vector<Light> lights_;
     float skyRadiance_ = 0.0f;
-    std::size_t bytes_ = 0;
     MotionPose pose_;
-    std::uint64_t poseNumber_ = 0;
+    std::uint64_t version_ = 0;
     std::optional<Deformer> deformer_;  // none where nothing bends
 
     SceneTextures textures_;
     SceneSamplers samplers_;
     Buffer vertices_, extras_, indices_, drawIndices_, materialBuffer_;
-    // What the last prepared view sees.
     mutable std::uint64_t trianglesDrawn_ = 0;
-    mutable float lodBias_ = 0.0f;          // that the samplers have
-    mutable std::vector<Run> runs_;         // all, by state: blended ones last
-    mutable std::vector<Run> blendedRuns_;  // of blended ones, the farthest first
-    mutable glm::vec3 up_{0.0f};            // the world's up in view space
-    mutable Buffer instances_, lightBuffer_, commands_;
+    mutable float lodBias_ = 0.0f;  // that the samplers have
+    mutable DrawList whole_;        // of drawRadiance and drawDepth
     VertexArray vertexArray_, extrasVertexArray_;
     std::map<unsigned, Program> programs_;  // by features
 };

@@ -192,9 +192,9 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
         forEach([&](const Primitive& primitive, PrimitiveRange& range) {
             if (primitive.extras.empty() == extras) return;
             if (primitive.deformation) vertexCount = forDeformer(vertexCount);
-            range = {indexCount, static_cast<std::uint32_t>(primitive.indices.size()), vertexCount};
+            range = {{indexCount, static_cast<std::uint32_t>(primitive.indices.size())}, vertexCount};
             vertexCount += static_cast<std::uint32_t>(primitive.vertices.size());
-            indexCount += range.indexCount;
+            indexCount += range.indices.count;
         });
         std::size_t posed = 0;
         forEachBent(scene, all, [&](const Primitive& primitive, const PrimitiveRange&) {
@@ -216,7 +216,7 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
             all.extras.update(primitive.extras.data(), primitive.extras.size() * sizeof(VertexExtra),
                               range.baseVertex * sizeof(VertexExtra));
         all.indices.update(primitive.indices.data(), primitive.indices.size() * sizeof(std::uint32_t),
-                           range.firstIndex * sizeof(std::uint32_t));
+                           range.indices.first * sizeof(std::uint32_t));
     });
     std::size_t posed = 0;
     forEachBent(scene, all, [&](const Primitive& primitive, const PrimitiveRange& range) {

@@ -32,8 +32,12 @@ GLuint samplerFor(SceneSamplers& samplers, const Sampler& sampler);
 std::array<const TextureSlot*, gpu::kMaterialTextures> textureSlots(const Material& material);
 gpu::MaterialData materialData(const Material& material);
 
+struct IndexRange {
+    std::uint32_t first = 0, count = 0;
+};
 struct PrimitiveRange {
-    std::uint32_t firstIndex, indexCount, baseVertex;
+    IndexRange indices;
+    std::uint32_t baseVertex = 0;
 };
 /// All primitives one after another, those with extras first, so that `extras` is as long as they need; mesh i's are
 /// primitives[firstPrimitive[i]] and on.

@@ -26,9 +26,10 @@ struct EyeFrame {
     int msaa = 0;
     ShowStage show;  // a stage of the technique instead of the picture
     PassLog& log;
-    int samples = 512;    // reference: points of the lens, >= 1
-    int firstSample = 0;  // reference: where in the sequence they begin
-    // reference: 0 draws all samples now; more: as many as fit, continuing while nothing else here changes.
+    int samples = 512;    // reference, accumulate: points of the lens, >= 1
+    int subsamples = 0;   // accumulate: more points of the lens for each, on average; 0..16
+    int firstSample = 0;  // reference, accumulate: where in the sequence they begin
+    // reference, accumulate: 0 draws all samples now; more: as many as fit, continuing while nothing else here changes.
     double budgetMilliseconds = 0.0;
 };
 
@@ -57,7 +58,7 @@ class Technique {
 
 /// All there are. New techniques join here and in the lists of technique.cpp.
 inline constexpr TechniqueChoice kTechniques[] = {TechniqueChoice::pinhole, TechniqueChoice::mipmap,
-                                                  TechniqueChoice::reference};
+                                                  TechniqueChoice::accumulate, TechniqueChoice::reference};
 
 /// One instance per eye: it keeps that eye's buffers.
 std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
@@ -65,10 +66,15 @@ std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
 /// "mipmap"
 std::string_view techniqueName(TechniqueChoice choice);
 
+/// Points of the lens that a technique averages where nobody says how many.
+int defaultSamples(TechniqueChoice choice);
+/// Whether antialiasing by msaa is its own choice.
+bool usesMsaa(TechniqueChoice choice);
+
 /// A technique and the values of its dials; a dial that it does not have is empty.
 struct TechniqueDials {
     TechniqueChoice technique = TechniqueChoice::pinhole;
-    std::optional<int> msaa, samples;
+    std::optional<int> msaa, samples, subsamples;
 
     /// Those it has, {"msaa", 4}.
     std::vector<std::pair<std::string_view, int>> dials() const;

@@ -20,6 +20,9 @@ layout(std430, binding = 1) readonly buffer Materials { MaterialData materials[]
 #endif
 
 uniform mat4 clipFromView[kMostMatrices];
+#ifdef LAYERED
+uniform int firstLayer;
+#endif
 
 #define STAGE out
 #include "scene/varyings.glsl"
@@ -55,6 +58,6 @@ void main() {
 #endif
     gl_Position = clipFromView[gl_InstanceID] * viewPosition;
 #ifdef LAYERED
-    gl_Layer = gl_InstanceID;
+    gl_Layer = firstLayer + gl_InstanceID;
 #endif
 }

@@ -82,6 +82,7 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"screen-distance-mm", "9"},
                                      {"technique", "pinhole"},
                                      {"samples", "64"},
+                                     {"subsamples", "2"},
                                      {"blades", "6"},
                                      {"blade-rotation-deg", "30"},
                                      {"msaa", "0"},

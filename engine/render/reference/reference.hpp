@@ -8,8 +8,8 @@
 // The sequence nests: more samples only add to the picture. Memory does not grow with their number.
 #pragma once
 
-#include "gl/program.hpp"
 #include "render/geometry_pass.hpp"
+#include "render/sample_sum.hpp"
 #include "render/show_pass.hpp"
 #include "render/technique.hpp"
 
@@ -18,33 +18,18 @@ namespace dioptre {
 class Reference final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
-    double progress() const override { return static_cast<double>(drawn_) / key_.samples; }
-    std::size_t bytes() const override;
+    double progress() const override { return sum_.progress(); }
+    std::size_t bytes() const override { return geometry_.bytes() + layers_.bytes() + sum_.bytes(); }
     /// Each sample is read once, the sum once.
-    std::optional<double> fetchesPerPixel() const override { return drawn_ + 1.0; }
+    std::optional<double> fetchesPerPixel() const override { return sum_.drawn() + 1.0; }
 
   private:
-    /// What the sum so far is of.
-    struct Key {
-        const GpuScene* scene = nullptr;
-        View view;
-        Lens lens;
-        float exposure = 0.0f;
-        int samples = 1, firstSample = 0;
-        std::uint64_t poseNumber = 0;
-
-        bool operator==(const Key&) const = default;
-    };
-    void resize(int width, int height, int layers);
     void addBatch(const EyeFrame& frame, int count);
 
-    Key key_;
-    int drawn_ = 0;            // samples in the sum
-    int prepared_ = 0;         // matrices that the scene is prepared for
-    Texture colors_, depths_;  // a layer per sample of a batch
-    Texture sum_, output_;     // RGBA32F
-    Framebuffer batchTarget_, sumTarget_, outputTarget_;
-    FullscreenPass accumulate_, average_;
+    DrawList list_;
+    int arranged_ = 0;  // matrices that the list is arranged for
+    SampleLayers layers_{"reference samples"};
+    SampleSum sum_;
     GeometryPass geometry_;  // for --show
     ShowPass show_;
 };

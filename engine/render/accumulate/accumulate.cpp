@@ -1,0 +1,166 @@
+#include "render/accumulate/accumulate.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "optics/lens_samples.hpp"
+#include "render/accumulate/detail.hpp"
+#include "shaders/shared/accumulate_types.h"
+
+namespace dioptre {
+
+namespace {
+
+// Cells of half a pixel: the smoother of the two published, and edges of what is sharp are what is looked at.
+constexpr int kGrid = 2;
+// Below that share of the samples, renderings that they share are worth their copies.
+constexpr double kWorthSharing = 0.5;
+// Beyond that CoC radius, px, more cells are taken than there are sprites, however many samples.
+constexpr double kMostSharedRadius = 2.0;
+
+std::vector<LensSample> samplesOf(const EyeFrame& frame) {
+    std::vector<LensSample> samples;
+    samples.reserve(static_cast<std::size_t>(frame.samples));
+    for (int i = 0; i < frame.samples; ++i) samples.push_back(lensSample(frame.firstSample + i, frame.lens));
+    return samples;
+}
+
+std::vector<glm::mat4> clipsOf(const EyeFrame& frame, std::span<const LensSample> samples) {
+    std::vector<glm::mat4> clips;
+    clips.reserve(samples.size());
+    for (const LensSample& sample : samples) clips.emplace_back(clipFromView(frame.view, frame.lens, sample));
+    return clips;
+}
+
+}  // namespace
+
+void Accumulate::makePlan(const EyeFrame& frame) {
+    plan_ = {};
+    std::vector<double> blur;
+    for (const DrawList::Seen& seen : list_.seen()) {
+        plan_.levels.push_back(detailLevel(frame.view, frame.lens, seen));
+        blur.push_back(cocExtent(frame.view, frame.lens, seen.box).largest);
+    }
+    plan_.shared.assign(blur.size(), false);
+    // Without a choice of layers there is nothing to draw sprites to.
+    if (GpuScene::mostMatrices() < gpu::kMostMatrices) return;
+
+    // The most blurred item for which few enough renderings do: all that are less blurred share them, too.
+    std::vector<double> candidates;
+    for (std::size_t i = 0; i < blur.size(); ++i)
+        if (!list_.seen()[i].blended && blur[i] < kMostSharedRadius) candidates.push_back(blur[i]);
+    std::sort(candidates.begin(), candidates.end(), std::greater<>());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    const std::vector<LensSample> samples = samplesOf(frame);
+    const auto most = std::min(kWorthSharing * frame.samples, double{gpu::kSpriteLayers});
+    const auto found = std::partition_point(candidates.begin(), candidates.end(), [&](double radius) {
+        return static_cast<double>(shareRenderings(samples, radius, kGrid).parents.size()) > most;
+    });
+    if (found == candidates.end()) return;
+    plan_.sharing = shareRenderings(samples, *found, kGrid);
+    for (std::size_t i = 0; i < blur.size(); ++i) plan_.shared[i] = !list_.seen()[i].blended && blur[i] <= *found;
+}
+
+std::vector<std::int8_t> Accumulate::levelsFor(bool shared, int first, int count, int total) const {
+    std::vector<std::int8_t> levels(plan_.levels.size(), DrawList::kHidden);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (plan_.shared[i] == shared)
+            levels[i] = static_cast<std::int8_t>(levelOfSample(plan_.levels[i], first + count / 2, total));
+    return levels;
+}
+
+void Accumulate::drawSprites(const EyeFrame& frame) {
+    const std::span<const LensSample> parents(plan_.sharing.parents);
+    if (parents.empty()) {
+        frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
+        return;
+    }
+    PassScope scope(frame.log, "sprites");
+    const auto total = static_cast<int>(parents.size());
+    sprites_.resize(frame.view.width, frame.view.height, gpu::kSpriteLayers);
+    sprites_.bind(true);
+    frame.scene.see(spriteList_, frame.view, &frame.lens);
+    for (int first = 0; first < total; first += gpu::kMostMatrices) {
+        const int count = std::min(gpu::kMostMatrices, total - first);
+        frame.scene.arrange(spriteList_, count, levelsFor(true, first, count, total));
+        frame.scene.drawThroughLens(
+            spriteList_,
+            clipsOf(frame, parents.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count))),
+            frame.exposure, textureLodBias(total), first);
+    }
+    if (!spritePass_.program()) spritePass_ = FullscreenPass::layered("accumulate/sprites.frag.glsl");
+}
+
+void Accumulate::beginWithSprites(int first, int count) {
+    sprites_.colors().bind(0);
+    sprites_.depths().bind(1);
+    const auto parentOf = plan_.sharing.parentOf.begin() + first;
+    spritePass_.program().set("spriteOf", std::vector<int>(parentOf, parentOf + count));
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    spritePass_.draw(count);
+    glDepthFunc(GL_GREATER);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Accumulate::drawGroup(const EyeFrame& frame, int count) {
+    const int first = sum_.drawn();
+    std::vector<std::int8_t> levels = levelsFor(false, first, count, frame.samples);
+    if (levels != arranged_ || count != arrangedFor_) {
+        frame.scene.arrange(list_, count, levels);
+        arranged_ = std::move(levels);
+        arrangedFor_ = count;
+    }
+    {
+        PassScope scope(frame.log, "samples");
+        const bool shares = !plan_.sharing.parents.empty();
+        layers_.bind(!shares);
+        if (shares) beginWithSprites(first, count);
+        std::vector<LensSample> samples;
+        for (int i = 0; i < count; ++i) samples.push_back(lensSample(frame.firstSample + first + i, frame.lens));
+        frame.scene.drawThroughLens(list_, clipsOf(frame, samples), frame.exposure, textureLodBias(frame.samples));
+    }
+    if (frame.subsamples == 0) {
+        PassScope scope(frame.log, "sum");
+        sum_.add(layers_, count);
+        return;
+    }
+    PassScope scope(frame.log, "sub-samples");
+    const glm::dvec2 f = focalLengthPixels(frame.view);
+    blur_.add({layers_, first, count, cocTransform(frame), f.y / f.x}, subsamples_, sum_);
+}
+
+const Texture& Accumulate::draw(const EyeFrame& frame) {
+    if (frame.show.stage != ShowChoice::none) {
+        geometry_.draw(frame.scene, frame.view, frame.exposure, 0, frame.log);
+        return show_.draw(frame, geometry_.depth());
+    }
+    const double start = nowMilliseconds();
+    const int layers = GpuScene::mostMatrices();
+    layers_.resize(frame.view.width, frame.view.height, layers);
+    sum_.begin(frame);
+    if (sum_.drawn() < frame.samples) {
+        frame.scene.see(list_, frame.view, &frame.lens);
+        arrangedFor_ = 0;
+    }
+    if (sum_.drawn() == 0) {
+        makePlan(frame);
+        drawSprites(frame);
+        subsamples_ = frame.subsamples > 0 ? subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample)
+                                           : Subsamples{};
+    }
+    while (sum_.drawn() < frame.samples) {
+        drawGroup(frame, std::min(layers, frame.samples - sum_.drawn()));
+        if (frame.budgetMilliseconds <= 0.0) continue;
+        glFinish();
+        if (nowMilliseconds() - start >= frame.budgetMilliseconds) break;
+    }
+    PassScope scope(frame.log, "average");
+    return sum_.mean();
+}
+
+std::size_t Accumulate::bytes() const {
+    return geometry_.bytes() + layers_.bytes() + sprites_.bytes() + sum_.bytes() + blur_.bytes();
+}
+
+}  // namespace dioptre

@@ -1,0 +1,64 @@
+// LOD-accelerated accumulation: the accurate end of what is drawn in real time.
+// [JKLL13] Jeong, Kim, Lee, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur"; and
+// Jeong's dissertation, ch. 3.
+//
+// The mean of N pictures through points of the lens, as the reference's, made cheaper in three ways:
+// - what is blurred is drawn with as many triangles as its blur can tell from more (detail.hpp);
+// - what is hardly blurred is drawn once for all points of the lens that see it in the same places (sharing.hpp), into
+//   sprites that samples begin with. [JKLL13] groups the samples for each object, and copies each; here all objects up
+//   to one CoC share one grouping, so that thousands take one copy. Blended surfaces are drawn for each sample;
+// - each picture serves some more points of the lens around its own (subsample_blur.hpp).
+// With one level of detail for all, nothing shared and no sub-samples it is the reference, to the bit.
+//
+// Samples come in groups of as many as one submission of the geometry can draw; memory does not grow with their number.
+// Each has its own sub-pixel jitter (of shared renderings, at least eight), so edges are antialiased and msaa is not
+// used.
+#pragma once
+
+#include <vector>
+
+#include "render/accumulate/sharing.hpp"
+#include "render/accumulate/subsample_blur.hpp"
+#include "render/geometry_pass.hpp"
+#include "render/sample_sum.hpp"
+#include "render/show_pass.hpp"
+#include "render/technique.hpp"
+
+namespace dioptre {
+
+class Accumulate final : public Technique {
+  public:
+    const Texture& draw(const EyeFrame& frame) override;
+    double progress() const override { return sum_.progress(); }
+    std::size_t bytes() const override;
+
+    /// For tests: what a view's plan is made of.
+    struct Plan {
+        std::vector<double> levels;  // of detail, of each seen item
+        std::vector<bool> shared;    // of each seen item: whether samples share renderings of it
+        SharedRenderings sharing;    // no parents where nothing is shared
+    };
+    const Plan& plan() const { return plan_; }
+
+  private:
+    void makePlan(const EyeFrame& frame);
+    void drawSprites(const EyeFrame& frame);
+    void drawGroup(const EyeFrame& frame, int count);
+    void beginWithSprites(int first, int count);
+    /// Those of the shared items, or of the others, that renderings `first` and on of `total` take; the rest hidden.
+    std::vector<std::int8_t> levelsFor(bool shared, int first, int count, int total) const;
+
+    DrawList list_, spriteList_;
+    std::vector<std::int8_t> arranged_;  // levels that the list is arranged for
+    int arrangedFor_ = 0;                // matrices
+    Plan plan_;
+    Subsamples subsamples_;
+    SampleLayers layers_{"lens samples"}, sprites_{"shared renderings"};
+    SampleSum sum_;
+    SubsampleBlur blur_;
+    FullscreenPass spritePass_;
+    GeometryPass geometry_;  // for --show
+    ShowPass show_;
+};
+
+}  // namespace dioptre

@@ -1,0 +1,43 @@
+#include "render/accumulate/detail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dioptre {
+
+CocExtent cocExtent(const View& view, const Lens& lens, const ViewBox& box) {
+    const double near = std::max(view.near.value, box.nearest());
+    const double far = std::max(near, box.farthest());
+    const double f = focalLengthPixels(view).x;
+    const double a = cocRadiusPixels(lens, f, Dioptres(1.0 / near)), b = cocRadiusPixels(lens, f, Dioptres(1.0 / far));
+    return {a <= 0.0 && b >= 0.0 ? 0.0 : std::min(std::abs(a), std::abs(b)), std::max(std::abs(a), std::abs(b))};
+}
+
+double sphereArea(const View& view, const ViewBox& box) {
+    const double radius = glm::length(box.half), distance = -box.centre.z;
+    if (distance <= radius) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 f = focalLengthPixels(view);
+    return std::numbers::pi * f.x * f.y * radius * radius / (distance * distance);
+}
+
+double detailLevel(double cocArea, double triangleArea, int mostLevel) {
+    if (!(cocArea > 0.0)) return 0.0;
+    return std::clamp(std::log2(cocArea / triangleArea), 0.0, static_cast<double>(mostLevel));
+}
+
+double detailLevel(const View& view, const Lens& lens, const DrawList::Seen& seen) {
+    if (seen.levels < 2) return 0.0;
+    const double radius = cocExtent(view, lens, seen.box).smallest;
+    return detailLevel(std::numbers::pi * radius * radius, sphereArea(view, seen.box) / (0.5 * seen.triangles),
+                       seen.levels - 1);
+}
+
+int levelOfSample(double level, int sample, int count) {
+    const double whole = std::floor(level);
+    const bool finer = sample < (1.0 - (level - whole)) * count;
+    return static_cast<int>(whole) + (finer ? 0 : 1);
+}
+
+}  // namespace dioptre

@@ -1,0 +1,36 @@
+// How much detail an object needs through a lens, and how blurred it can be. Arithmetic, no GL.
+// [JKLL13] Jeong, Kim, Lee, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur".
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "optics/lens.hpp"
+#include "optics/view.hpp"
+#include "render/draw_list.hpp"
+
+namespace dioptre {
+
+/// The CoC RADII, without their sign, that a box can have; pixels along x.
+struct CocExtent {
+    double smallest = 0.0, largest = 0.0;
+};
+/// Of what of the box lies before the near plane nothing is drawn.
+CocExtent cocExtent(const View& view, const Lens& lens, const ViewBox& box);
+
+/// Screen area of the sphere around the box, px²; infinite where the eye is in it.
+double sphereArea(const View& view, const ViewBox& box);
+
+/// [JKLL13] eq. 3, L = max(log2(C/A), 0), by areas in px²: what a CoC covers against what a triangle does. 0 for C = 0
+/// (in focus), never above `mostLevel` (A = 0).
+double detailLevel(double cocArea, double triangleArea, int mostLevel);
+
+/// Of an item: eq. 3 with C = pi c² of its smallest CoC radius and, eq. 4, A = A_b / (N_t / 2): half of its triangles
+/// face the eye. A fraction: so much of the lens takes the next level. It hangs on the depth along the view alone, not
+/// on where to the side the eye is: both eyes see the same level.
+double detailLevel(const View& view, const Lens& lens, const DrawList::Seen& seen);
+
+/// The level of one of `count` samples: the first (1 - fraction) of them take the one below. Both parts of the Halton
+/// sequence cover the lens about evenly, so that a level comes and goes without a jump.
+int levelOfSample(double level, int sample, int count);
+
+}  // namespace dioptre

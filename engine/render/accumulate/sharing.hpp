@@ -1,0 +1,29 @@
+// Adaptive visibility: samples of the lens that see an object in the same raster cells share one rendering of it.
+// [JKLL13] Jeong, Kim, Lee, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur".
+//
+// A point with CoC radius c is moved by c v on the screen, v in the unit disc. Of an object whose largest CoC radius is
+// r, all samples with r v in the same cell of 1/grid pixels are drawn once, through their parent, and copied. That moves
+// nothing by more than the cell's diagonal, 1.42/grid px, and what lies nearer to focus by less. The parent is the mean
+// of its samples: with the one nearest to the middle of the cell, as published, an object as a whole can be moved.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "optics/lens_samples.hpp"
+
+namespace dioptre {
+
+struct SharedRenderings {
+    std::vector<LensSample> parents;  // point of the lens and the pixel's jitter, which all who share have in common
+    std::vector<int> parentOf;        // of each sample
+};
+
+/// Each sample has one parent. A parent's pixel jitter is that of all who share it, so it stands for at most one in
+/// kLeastJitters samples, or edges would not stay antialiased: cells with more are divided among parents. On a
+/// checkerboard of 1 px, 64 samples, eight gave SSIM 0.984 to plain accumulation, sixteen 0.993.
+inline constexpr int kLeastJitters = 16;
+SharedRenderings shareRenderings(std::span<const LensSample> samples, double cocRadius, int grid);
+
+}  // namespace dioptre

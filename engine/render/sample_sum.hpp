@@ -1,0 +1,74 @@
+// What techniques share that average pictures through many points of the lens: layers to draw samples to, and their sum.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "gl/objects.hpp"
+#include "gl/program.hpp"
+#include "render/technique.hpp"
+
+namespace dioptre {
+
+/// Radiance (RGBA16F) and reversed depth of some samples, a layer each.
+class SampleLayers {
+  public:
+    explicit SampleLayers(std::string_view label) : label_(label) {}
+
+    void resize(int width, int height, int layers);
+    /// Makes all layers the draw target; with `clear`, black and infinitely far.
+    void bind(bool clear) const;
+    const Texture& colors() const { return colors_; }
+    const Texture& depths() const { return depths_; }
+    std::size_t bytes() const { return colors_ ? colors_.bytes() + depths_.bytes() : 0; }
+
+  private:
+    std::string_view label_;
+    Texture colors_, depths_;
+    Framebuffer target_;
+};
+
+/// The sum of samples, 32-bit floats, and their mean. It can go on over several frames.
+class SampleSum {
+  public:
+    /// Ready for more samples of `frame`: those of former frames are kept where it has a budget and nothing else that
+    /// the picture depends on is new.
+    void begin(const EyeFrame& frame);
+    /// Of the samples asked for; counts those that add() and addDrawn() were told of.
+    int drawn() const { return drawn_; }
+    double progress() const { return static_cast<double>(drawn_) / key_.samples; }
+
+    /// Adds the first `count` layers.
+    void add(const SampleLayers& layers, int count);
+    /// Adds what `pass` draws over the whole picture: the sum, in rgb, of `count` samples, each counted `weight` times
+    /// on the mean.
+    void addDrawn(const FullscreenPass& pass, int count, int weight);
+    /// Their mean, RGBA32F.
+    const Texture& mean();
+    std::size_t bytes() const { return sum_ ? sum_.bytes() + output_.bytes() : 0; }
+
+  private:
+    /// What the sum so far is of.
+    struct Key {
+        const GpuScene* scene = nullptr;
+        View view;
+        Lens lens;
+        float exposure = 0.0f;
+        int samples = 1, firstSample = 0, subsamples = 0;
+        std::uint64_t version = 0;  // of the scene
+
+        bool operator==(const Key&) const = default;
+    };
+
+    Key key_;
+    int drawn_ = 0;
+    double weight_ = 0.0;
+    Texture sum_, output_;
+    Framebuffer sumTarget_, outputTarget_;
+    FullscreenPass add_, mean_;
+};
+
+/// What is added to the level of textures where `samples` samples of a pixel filter them, too.
+float textureLodBias(int samples);
+
+}  // namespace dioptre

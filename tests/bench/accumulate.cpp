@@ -1,0 +1,174 @@
+// What accumulation gains by levels of detail and sub-samples, against plain accumulation in the same run: figure 11 of
+// Jeong et al. 2013, and the time that plain accumulation takes for the same SSIM.
+//
+//   bench_accumulate [SCENE...] [--diameter PX] [--reference N] [--size WxH] [--quick]
+//
+// default: toys, fishes, dragons at 1024x768, a mean CoC DIAMETER of 20 px, focus on the median of what is visible;
+// errors against N = 1024 other points of the lens. --quick: one frame each, fewer N.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "bench_common.hpp"
+#include "core/image.hpp"
+#include "core/log.hpp"
+#include "frame/frame_maker.hpp"
+#include "frame/measure_frames.hpp"
+#include "frame/measure_lens.hpp"
+#include "gl/context.hpp"
+#include "metrics/metrics.hpp"
+#include "scene/builtin.hpp"
+
+namespace dioptre {
+namespace {
+
+struct Options {
+    std::vector<std::string> scenes;
+    double diameter = 20.0;
+    int reference = 1024;
+    int width = 1024, height = 768;
+    bool quick = false;
+};
+
+struct Shot {
+    const GpuScene& scene;
+    View view;
+    Lens lens;
+};
+
+struct Drawn {
+    Image picture;
+    double milliseconds = 0.0;  // median
+    std::uint64_t triangles = 0;
+    std::map<std::string_view, double> stages;  // of one more frame
+};
+
+Drawn draw(const Shot& shot, TechniqueChoice choice, int samples, int subsamples, int firstSample, int frames) {
+    PassLog log;
+    const auto technique = makeTechnique(choice);
+    EyeFrame frame{shot.scene, shot.view, shot.lens, 1.0f, 0, {}, log, samples, subsamples, firstSample};
+    Drawn drawn;
+    if (frames > 0) {
+        EyeFrame least = frame;
+        least.samples = 4;
+        technique->draw(least);
+        glFinish();
+    }
+    std::vector<double> times;
+    for (int i = 0; i < std::max(1, frames); ++i) {
+        const std::uint64_t before = shot.scene.trianglesDrawn();
+        const double start = nowMilliseconds();
+        const Texture& picture = technique->draw(frame);
+        glFinish();
+        times.push_back(nowMilliseconds() - start);
+        drawn.triangles = shot.scene.trianglesDrawn() - before;
+        if (i > 0) continue;
+        drawn.picture = Image(shot.view.width, shot.view.height);
+        drawn.picture.pixels = readTexture(picture, GL_RGB, 3);
+    }
+    drawn.milliseconds = median(times);
+    if (frames > 0) {
+        log.clear();
+        log.timed = true;
+        technique->draw(frame);
+        for (const PassLog::Entry& entry : log.entries) drawn.stages[entry.name] += entry.milliseconds;
+    }
+    return drawn;
+}
+
+/// Milliseconds of plain accumulation at an SSIM, interpolated in log N; negative where it lies outside of what was
+/// measured.
+double plainTime(const std::vector<std::pair<double, double>>& ssimTime, double ssim) {
+    for (std::size_t i = 1; i < ssimTime.size(); ++i) {
+        const auto& [a, timeA] = ssimTime[i - 1];
+        const auto& [b, timeB] = ssimTime[i];
+        if (ssim < a || ssim > b) continue;
+        return std::exp(std::log(timeA) + (ssim - a) / (b - a) * (std::log(timeB) - std::log(timeA)));
+    }
+    return -1.0;
+}
+
+void compare(const std::string& name, const Options& options) {
+    const Scene scene = loadBuiltin(name, cacheFolder());
+    const GpuScene gpu(scene);
+    ViewSettings settings;
+    settings.size = {options.width, options.height};
+    const View view = startView(scene, settings);
+    const VergenceStatistics seen = visibleVergences(gpu, view);
+    const Lens lens = measuredLens(seen, {"middle", 0.5}, {"", options.diameter * kMeasuredWidth / options.width},
+                                   focalLengthPixels(view).x, options.width);
+    const Shot shot{gpu, view, lens};
+    constexpr int kOtherSamples = 100003;
+    const Image reference = draw(shot, TechniqueChoice::reference, options.reference, 0, kOtherSamples, 0).picture;
+    fmt::print("\n{}: {} triangles, aperture diameter {:.1f} mm, focus {:.3f} D\n\n", name, scene.triangleCount(),
+               lens.apertureRadius.value * 2e3, lens.focus.value);
+
+    fmt::print("| plain N | SSIM | PSNR, dB | ms |\n|---|---|---|---|\n");
+    std::vector<std::pair<double, double>> plain;
+    std::uint64_t trianglesOfSample = 1;
+    const int most = options.quick ? 128 : 512;
+    for (int n = 8; n <= most; n *= 2) {
+        const Drawn drawn = draw(shot, TechniqueChoice::reference, n, 0, 0, options.quick ? 1 : n <= 64 ? 3 : 1);
+        const Comparison error = compareImages(reference, drawn.picture);
+        plain.emplace_back(error.ssim, drawn.milliseconds);
+        trianglesOfSample = drawn.triangles / static_cast<std::uint64_t>(n);
+        fmt::print("| {} | {:.4f} | {:.2f} | {:.0f} |\n", n, error.ssim, error.psnr, drawn.milliseconds);
+        std::fflush(stdout);
+    }
+    fmt::print(
+        "\n| N | S | SSIM | PSNR, dB | ms | triangles | plain at that SSIM, ms | faster | stages, ms |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
+    for (const int n : {8, 16, 32, 64})
+        for (const int s : {0, 2, 4, 8}) {
+            if (options.quick && (n == 64 || s == 8)) continue;
+            const Drawn drawn = draw(shot, TechniqueChoice::accumulate, n, s, 0, options.quick ? 1 : 3);
+            const Comparison error = compareImages(reference, drawn.picture);
+            const double same = plainTime(plain, error.ssim);
+            std::string stages;
+            for (const auto& [stage, time] : drawn.stages) stages += fmt::format("{} {:.0f} ", stage, time);
+            fmt::print("| {} | {} | {:.4f} | {:.2f} | {:.0f} | {:.0f} % | {:.0f} | {:.2f} | {}|\n", n, s, error.ssim,
+                       error.psnr, drawn.milliseconds,
+                       100.0 * static_cast<double>(drawn.triangles) / static_cast<double>(trianglesOfSample * n), same,
+                       same / drawn.milliseconds, stages);
+            std::fflush(stdout);
+        }
+}
+
+Options parse(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        const auto value = [&] { return i + 1 < argc ? std::string(argv[++i]) : std::string(); };
+        if (argument == "--quick")
+            options.quick = true;
+        else if (argument == "--diameter")
+            options.diameter = std::atof(value().c_str());
+        else if (argument == "--reference")
+            options.reference = std::atoi(value().c_str());
+        else if (argument == "--size")
+            std::sscanf(value().c_str(), "%dx%d", &options.width, &options.height);
+        else
+            options.scenes.push_back(argument);
+    }
+    if (options.scenes.empty()) options.scenes = {"toys", "fishes", "dragons"};
+    return options;
+}
+
+}  // namespace
+}  // namespace dioptre
+
+int main(int argc, char** argv) {
+    try {
+        const dioptre::Options options = dioptre::parse(argc, argv);
+        const auto context = dioptre::createHeadlessContext("auto");
+        for (const std::string& scene : options.scenes) dioptre::compare(scene, options);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}
