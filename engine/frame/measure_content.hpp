@@ -1,26 +1,11 @@
-// Hashes by which pictures are found again.
+// The hash by which the pictures of a scene are found again.
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "scene/scene.hpp"
 
 namespace dioptre {
-
-/// 64 bits of anything; equal on every machine of the same byte order. No protection against malice.
-class ContentHash {
-  public:
-    void addBytes(const void* data, std::size_t size);
-    void addText(std::string_view text);  // with its length
-    void add(double value);
-    void add(std::uint64_t value);
-    std::string hex() const;
-
-  private:
-    std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
 
 /// Hash of everything in a scene that can change a picture of a given view: geometry, textures, materials, lights.
 std::string contentOf(const Scene& scene);
