@@ -18,6 +18,7 @@ std::unique_ptr<Context> openHeadlessContext(const Command& command);
 void runRender(const Command& command);
 void runView(const Command& command);
 void runInspect(const Command& command);
+void inspectLods(const Scene& scene);  // inspect --lods
 void runCompare(const Command& command);
 void runExport(const Command& command);
 void runMeasure(const Command& command);

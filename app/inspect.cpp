@@ -94,6 +94,7 @@ std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
 
 void runInspect(const Command& command) {
     Scene scene = loadScene(command);
+    if (command.lods) return inspectLods(scene);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
     const std::string text = sceneText(scene) + memoryText(scene, maker.scene());

@@ -168,7 +168,10 @@ void addExamples(CLI::App& app) {
         "Examples:\n"
         "  dioptre view my.glb --display anaglyph --aperture-mm 8\n"
         "  dioptre view my.glb --lens eye-60 --eye centre");
-    app.get_subcommand("inspect")->footer("Example: dioptre inspect my.glb --lens eye-60 --focus 0.4");
+    app.get_subcommand("inspect")->footer(
+        "Examples:\n"
+        "  dioptre inspect my.glb --lens eye-60 --focus 0.4\n"
+        "  dioptre inspect my.glb --lods");
     app.get_subcommand("compare")->footer("Example: dioptre compare reference.pfm mine.png");
     app.get_subcommand("measure")->footer(
         "Examples:\n"
@@ -275,6 +278,8 @@ Command parseCommandLine(int argc, const char* const* argv) {
     CLI::App* inspect = app.add_subcommand(
         "inspect", "tell what a scene holds, what the lens can do with it, and what a view of it costs");
     addScene(*inspect, result);
+    inspect->add_flag("--lods", result.lods,
+                      "make the levels of detail of its meshes and tell what they are; nothing is drawn");
     for (CLI::App* command : {render, view, inspect}) {
         addConfig(*command, result);
         addSettings(*command, given);

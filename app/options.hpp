@@ -29,6 +29,7 @@ struct Command {
     double fps = 30.0;                 // of the sequence, frames per second
     std::string compareA, compareB;    // compare: two picture files; their error map goes to `out`
     MeasureOptions measure;
+    bool lods = false;             // inspect: tell of the levels of detail alone
     std::filesystem::path log;     // render, view: CSV of what was shown; empty: none
     std::filesystem::path config;  // already read into settings
     bool printConfig = false;      // print printSettings(settings) and stop

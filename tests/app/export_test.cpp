@@ -7,6 +7,7 @@ namespace dioptre::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using ExportTest = ProgramTest;
 
 TEST_F(ExportTest, WritesAFileThatOpens) {
@@ -37,6 +38,20 @@ TEST_F(ExportTest, InspectTellsWhatASceneTakes) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     for (const char* word : {"objects", "triangles", "bounds", "memory", "MB for the GPU"})
         EXPECT_THAT(outcome.out, HasSubstr(word));
+}
+
+TEST_F(ExportTest, InspectTellsLevelsOfDetail) {
+    ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    const Outcome made = run({"inspect", "--lods"}), again = run({"inspect", "builtin:studio", "--lods"});
+    ::unsetenv("XDG_CACHE_HOME");
+    for (const Outcome* outcome : {&made, &again}) {
+        EXPECT_EQ(outcome->status, 0) << outcome->err;
+        for (const char* word : {"level  0", "level  1", "triangles, error", " mm, ", " s\n", "memory", "of one core"})
+            EXPECT_THAT(outcome->out, HasSubstr(word));
+    }
+    EXPECT_THAT(made.out, Not(HasSubstr(", cached\n")));
+    EXPECT_THAT(again.out, HasSubstr(", cached\n"));
+    EXPECT_FALSE(std::filesystem::is_empty(folder / "dioptre" / "lods"));
 }
 
 #ifndef DIOPTRE_SANITIZED  // which make millions of triangles slow
