@@ -98,6 +98,7 @@ void runInspect(const Command& command) {
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
     const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
+    if (usesLevels(command.settings.render.technique)) maker.addLevels(buildLevels(scene, {lodFolder()}));
     scene.releaseBulk();
     FrameMaker::Input input;
     input.time = command.settings.view.time;

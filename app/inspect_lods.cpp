@@ -4,13 +4,10 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
-#include <optional>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "commands.hpp"
-#include "core/log.hpp"
 #include "core/text.hpp"
 #include "scene/lod.hpp"
 
@@ -20,21 +17,10 @@ namespace {
 
 using Chains = std::map<std::pair<std::size_t, std::size_t>, std::vector<BuiltLevel>>;  // by mesh and primitive
 
-/// Shows progress where it takes a while.
 Chains build(const Scene& scene) {
-    constexpr auto kStep = std::chrono::milliseconds(20);
-    constexpr std::size_t kPercent = 100;
-    LodBuilder builder(scene, {lodFolder()});
-    std::optional<ProgressLine> line;
-    for (int steps = 0; !builder.finished(); ++steps) {
-        std::this_thread::sleep_for(kStep);
-        if (steps < 10) continue;
-        if (!line) line.emplace("making levels of detail, percent", kPercent);
-        line->update(static_cast<std::size_t>(builder.progress() * kPercent));
-    }
-    line.reset();
     Chains chains;
-    for (BuiltLevel& built : builder.take()) chains[{built.mesh, built.primitive}].push_back(std::move(built));
+    for (BuiltLevel& built : buildLevels(scene, {lodFolder()}))
+        chains[{built.mesh, built.primitive}].push_back(std::move(built));
     return chains;
 }
 

@@ -9,6 +9,7 @@
 #include "gl/pass.hpp"
 #include "interrupt.hpp"
 #include "scene/builtin.hpp"
+#include "scene/lod.hpp"
 
 #ifndef DIOPTRE_COMMIT
 #define DIOPTRE_COMMIT "unknown"
@@ -47,6 +48,7 @@ MeasureRequest requestOf(const Command& command, std::size_t scenes) {
     request.resume = options.resume;
     request.scenes = scenes;
     if (const auto cache = cacheFolder(); !cache.empty()) request.cache = cache / "references";
+    request.lods = lodFolder();
     request.program = programVersion();
     request.commit = DIOPTRE_COMMIT;
     request.context = command.settings.system.context == ContextChoice::osmesa ? "osmesa"

@@ -10,6 +10,7 @@
 #include "frame/sequence.hpp"
 #include "gl/context.hpp"
 #include "interrupt.hpp"
+#include "scene/lod.hpp"
 
 namespace dioptre {
 
@@ -28,6 +29,7 @@ void runRender(const Command& command) {
     Scene scene = loadScene(command);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
+    if (usesLevels(command.settings.render.technique)) maker.addLevels(buildLevels(scene, {lodFolder()}));
     scene.releaseBulk();
     std::vector<FrameReport> shown;
     const auto warnIfLimited = [](const ResolvedLens& lens) {

@@ -11,6 +11,7 @@
 #include "core/log.hpp"
 #include "frame/sequence.hpp"
 #include "interrupt.hpp"
+#include "scene/lod.hpp"
 #include "window.hpp"
 
 namespace dioptre {
@@ -39,10 +40,23 @@ std::optional<glm::dvec2> pointerGaze(GLFWwindow* window, DisplayChoice display,
 /// A scene and what draws it.
 struct Show {
     Show(Scene&& shown, const Settings& settings) : scene(std::move(shown)), maker(scene, settings) {
+        if (usesLevels(settings.render.technique))
+            levels = std::make_unique<LodBuilder>(scene, LodOptions{lodFolder()});
+        else
+            scene.releaseBulk();
+    }
+    /// Levels of detail that became ready, made while the window shows finer ones.
+    void takeLevels() {
+        if (!levels) return;
+        const bool last = levels->finished();
+        maker.addLevels(levels->take());
+        if (!last) return;
+        levels.reset();
         scene.releaseBulk();
     }
     Scene scene;
     FrameMaker maker;
+    std::unique_ptr<LodBuilder> levels;
 };
 
 class Viewer {
@@ -92,6 +106,7 @@ class Viewer {
             // Outside the picture is as a lost tracker: focus holds.
             input.gaze = GazeSample{input.time, pointer.value_or(glm::dvec2(0.5)), pointer.has_value()};
         }
+        show_->takeLevels();
         const FrameReport& frame = show_->maker.make(input);
         PictureSize size;
         glfwGetFramebufferSize(window_.handle(), &size.width, &size.height);

@@ -56,7 +56,7 @@ inline std::size_t choiceIndex(const Setting& setting, std::string_view text) {
 }
 
 // The stages of `show` without a level; pyramid follows them.
-inline constexpr std::string_view kShowNames[] = {"none", "vergence", "coc", "dob", "don", "level"};
+inline constexpr std::string_view kShowNames[] = {"none", "vergence", "coc", "dob", "don", "level", "lod"};
 
 // ---- One reader per type of member: false where the text is not allowed. ----
 

@@ -212,7 +212,7 @@ std::vector<Setting> makeTable() {
                                         .name = "show",
                                         .help = "a stage of the frame in place of the picture: vergence (depth), coc "
                                                 "(blur: red before focus, blue behind), ...",
-                                        .form = "none|vergence|coc|dob|don|level|pyramid:0..12"}),
+                                        .form = "none|vergence|coc|dob|don|level|lod|pyramid:0..12"}),
         row<&S::render, &Render::exposureEv>({.group = "render",
                                               .name = "exposure",
                                               .help = "exposure, +1 doubles the light",

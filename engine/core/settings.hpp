@@ -66,7 +66,7 @@ struct ViewSettings {
 
 enum class TechniqueChoice { pinhole, mipmap, accumulate, reference };
 enum class ToneMapChoice { none, neutral };
-enum class ShowChoice { none, vergence, coc, dob, don, level, pyramid };
+enum class ShowChoice { none, vergence, coc, dob, don, level, lod, pyramid };
 
 struct ShowStage {
     ShowChoice stage = ShowChoice::none;

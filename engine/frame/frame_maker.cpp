@@ -285,6 +285,10 @@ Image FrameMaker::composed() const {
     return image;
 }
 
+void FrameMaker::addLevels(const std::vector<BuiltLevel>& levels) {
+    for (const BuiltLevel& built : levels) scene_.addLevel(built.mesh, built.primitive, built.data);
+}
+
 void FrameMaker::present(PictureSize window) {
     compositor_.present(window, report_.passes);
 }

@@ -16,6 +16,7 @@
 #include "optics/lens_preset.hpp"
 #include "present/compositor.hpp"
 #include "render/technique.hpp"
+#include "scene/lod.hpp"
 #include "scene/scene.hpp"
 
 namespace dioptre {
@@ -60,6 +61,9 @@ class FrameMaker {
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.
     const FrameReport& make(const Input& input);
+
+    /// What a technique that draws levels of detail is to draw from the next frame on.
+    void addLevels(const std::vector<BuiltLevel>& levels);
 
     /// The last frame: read back, linear; or shown in the window's framebuffer of that size.
     Image composed() const;  // warns, once, of radiance that half floats could not hold

@@ -13,6 +13,7 @@
 #include "frame/measure_page.hpp"
 #include "frame/measure_reference.hpp"
 #include "metrics/metrics.hpp"
+#include "scene/lod.hpp"
 
 namespace dioptre {
 
@@ -115,7 +116,9 @@ void Measuring::keep(const MeasuredView& view) {
 
 bool Measuring::add(const std::string& name, const Scene& scene) {
     const std::string content = contentOf(scene);
-    const GpuScene gpu(scene);
+    GpuScene gpu(scene);
+    for (const BuiltLevel& built : buildLevels(scene, {request_.lods}))
+        gpu.addLevel(built.mesh, built.primitive, built.data);
     for (const PictureSize& size : request_.sizes) {
         ViewSettings settings = request_.view;
         settings.size = size;

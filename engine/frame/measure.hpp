@@ -28,6 +28,7 @@ struct MeasureRequest {
     bool resume = false;          // keep the rows that are in the folder
     std::size_t scenes = 1;       // that will come
     std::filesystem::path cache;  // references are kept here; empty: nowhere
+    std::filesystem::path lods;   // levels of detail are; empty: nowhere
     std::string program, commit, context;
     std::function<bool()> stopped = [] { return false; };  // asked often; once true, always true
 };

@@ -36,10 +36,13 @@ class DrawList {
         std::uint32_t item = 0;  // GpuScene's number
         ViewBox box;
         bool blended = false;
-        std::uint32_t triangles = 0;  // at level 0
-        int levels = 1;               // of detail, level 0 included
+        std::uint32_t triangles = 0;    // at level 0
+        std::span<const float> errors;  // of each level of detail, level 0 (0) included, metres of the mesh; >= 1
+        double scale = 1.0;             // the most that a metre of the mesh is stretched
+
+        int levels() const { return static_cast<int>(errors.size()); }
     };
-    /// In the scene's order of state, blended ones last.
+    /// By what one call can draw, the nearest first; blended ones last.
     std::span<const Seen> seen() const { return seen_; }
 
     /// In `levels`: the item is not drawn.

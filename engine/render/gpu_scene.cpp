@@ -25,11 +25,20 @@ enum Feature : unsigned {
     kBlend = 1u << 5,
     kExtras = 1u << 6,
     kMapped = 1u << 7,
-    kOcclusion = 1u << 8
+    kOcclusion = 1u << 8,
+    kSurfaceMap = 1u << 9,
+    kNormalMap = 1u << 10
 };
-constexpr std::pair<Feature, const char*> kFeatureNames[] = {
-    {kLit, "LIT"},     {kEmissive, "EMISSIVE"}, {kMask, "MASK"},     {kSolid, "SOLID"},
-    {kBlend, "BLEND"}, {kExtras, "EXTRAS"},     {kMapped, "MAPPED"}, {kOcclusion, "OCCLUSION"}};
+constexpr std::pair<Feature, const char*> kFeatureNames[] = {{kLit, "LIT"},
+                                                             {kEmissive, "EMISSIVE"},
+                                                             {kMask, "MASK"},
+                                                             {kSolid, "SOLID"},
+                                                             {kBlend, "BLEND"},
+                                                             {kExtras, "EXTRAS"},
+                                                             {kMapped, "MAPPED"},
+                                                             {kOcclusion, "OCCLUSION"},
+                                                             {kSurfaceMap, "SURFACE_MAP"},
+                                                             {kNormalMap, "NORMAL_MAP"}};
 
 Program program(unsigned features) {
     std::vector<std::string> defines;
@@ -110,6 +119,9 @@ void GpuScene::uploadMaterials(const Scene& scene) {
         bound.lit = !m.unlit;
         bound.doubleSided = m.doubleSided;
         bound.occluded = m.occlusionTexture.used();
+        bound.emits = m.emissive != glm::vec3(0.0f);
+        bound.surfaceMapped = m.metallicRoughnessTexture.used();
+        bound.bumped = m.normalTexture.used();
         data.push_back(materialData(m));
         for (const TextureSlot* slot : textureSlots(m)) bound.mapped = bound.mapped || (slot->used() && !slot->plain());
     }
@@ -123,7 +135,7 @@ void GpuScene::uploadGeometry(const Scene& scene) {
     indices_ = std::move(geometry.indices);
     if (!geometry.posedVertices.empty()) deformer_.emplace(scene.motion);
     for (const PrimitiveRange& range : geometry.primitives) {
-        levels_.push_back({range.indices});
+        levels_.push_back({{range.indices}, {0.0f}});
         indexCount_ += range.indices.count;
     }
     firstPrimitive_ = geometry.firstPrimitive;
@@ -163,7 +175,8 @@ void GpuScene::uploadGeometry(const Scene& scene) {
     if (extras_) describeExtras(extrasVertexArray_, extras_);
 }
 
-void GpuScene::addLevel(std::size_t mesh, std::size_t primitive, std::span<const std::uint32_t> indices) {
+void GpuScene::addLevel(std::size_t mesh, std::size_t primitive, const LodLevel& level) {
+    const std::span<const std::uint32_t> indices(level.indices);
     const std::size_t needed = (indexCount_ + indices.size()) * sizeof(std::uint32_t);
     if (needed > indices_.bytes()) {
         // All levels of a primitive together have no more triangles than the first: twice is enough.
@@ -175,7 +188,9 @@ void GpuScene::addLevel(std::size_t mesh, std::size_t primitive, std::span<const
     }
     indices_.update(indices.data(), indices.size_bytes(), indexCount_ * sizeof(std::uint32_t));
     const auto count = static_cast<std::uint32_t>(indices.size());
-    levels_[firstPrimitive_[mesh] + primitive].push_back({indexCount_, count});
+    Levels& levels = levels_[firstPrimitive_[mesh] + primitive];
+    levels.indices.push_back({indexCount_, count});
+    levels.errors.push_back(level.error);
     indexCount_ += count;
     ++version_;
 }
@@ -202,7 +217,12 @@ unsigned GpuScene::featuresOf(const State& state, Phase phase) const {
     const unsigned vertex = (state.extras ? kExtras : 0u) | (m.mapped ? kMapped : 0u);
     // Depth alone asks for the surface only where that has holes.
     if (phase == Phase::depth) return kDepthOnly | (alpha ? alpha | vertex : 0u);
-    const unsigned shading = !m.lit ? 0u : !state.lit ? kEmissive : m.occluded ? kLit | kOcclusion : kLit;
+    // A texture that is not there is not asked for: four of a surface's five take more time than its light.
+    unsigned shading = 0u;
+    if (m.lit && m.emits) shading |= kEmissive;
+    if (m.lit && state.lit)
+        shading |=
+            kLit | (m.occluded ? kOcclusion : 0u) | (m.surfaceMapped ? kSurfaceMap : 0u) | (m.bumped ? kNormalMap : 0u);
     const unsigned seen = !state.blended ? alpha : phase == Phase::blended ? kBlend : kSolid;
     return vertex | shading | seen;
 }
@@ -272,13 +292,17 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
         const ViewBox box = boxInView(viewFromMesh, item.bounds);
         if (!mayBeSeen(view, lens, box)) continue;
         instances[i] = {glm::mat4(viewFromMesh), glm::uvec4(item.state.material, 0, 0, 0)};
-        if (item.state.blended) list.blended_.push_back(list.seen_.size());
-        const std::vector<IndexRange>& levels = levels_[item.primitive];
+        const Levels& levels = levels_[item.primitive];
+        const glm::dmat3 linear(viewFromMesh);
+        const double scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
         const bool triangles = item.state.topology == Topology::triangles;
         list.seen_.push_back({static_cast<std::uint32_t>(i), box, item.state.blended,
-                              triangles ? levels.front().count / 3 : 0,
-                              item.bent < 0 ? static_cast<int>(levels.size()) : 1});
+                              triangles ? levels.indices.front().count / 3 : 0,
+                              std::span(levels.errors).first(item.bent < 0 ? levels.errors.size() : 1), scale});
     }
+    sortFrontToBack(list);
+    for (std::size_t i = 0; i < list.seen_.size(); ++i)
+        if (list.seen_[i].blended) list.blended_.push_back(i);
     std::stable_sort(list.blended_.begin(), list.blended_.end(), [&](std::size_t a, std::size_t b) {
         return list.seen_[a].box.centre.z < list.seen_[b].box.centre.z;
     });
@@ -294,6 +318,26 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     for (const Light& light : lights_) lights.push_back(lightInView(light, viewFrom));
     fill(list.lights_, lights, "lights");
     list.up_ = glm::vec3(viewFrom[1]);
+}
+
+// What is near hides the rest before it is shaded; within what one call draws, and call by call. Blended surfaces stay
+// last.
+void GpuScene::sortFrontToBack(DrawList& list) const {
+    const auto stateOf = [&](const DrawList::Seen& seen) { return items_[seen.item].state; };
+    std::vector<double> nearest(items_.size());  // of the items of equal state
+    for (auto from = list.seen_.begin(); from != list.seen_.end();) {
+        const State state = stateOf(*from);
+        double distance = -from->box.centre.z;
+        auto to = from;
+        for (; to != list.seen_.end() && stateOf(*to) == state; ++to) distance = std::min(distance, -to->box.centre.z);
+        for (; from != to; ++from) nearest[from->item] = distance;
+    }
+    std::stable_sort(list.seen_.begin(), list.seen_.end(), [&](const DrawList::Seen& a, const DrawList::Seen& b) {
+        const State stateA = stateOf(a), stateB = stateOf(b);
+        if (stateA.blended != stateB.blended) return stateB.blended;
+        if (stateA == stateB) return a.box.centre.z > b.box.centre.z;
+        return nearest[a.item] != nearest[b.item] ? nearest[a.item] < nearest[b.item] : stateA < stateB;
+    });
 }
 
 void GpuScene::arrange(DrawList& list, int matrices, std::span<const std::int8_t> levels) const {
@@ -325,7 +369,7 @@ void GpuScene::append(DrawList& list, std::vector<Run>& runs, const DrawList::Se
     const Item& item = items_[seen.item];
     if (runs.empty() || runs.back().state != item.state || runs.back().faces != faces)
         runs.push_back({item.state, faces, list.arranged_.size()});
-    const IndexRange& range = levels_[item.primitive][static_cast<std::size_t>(level)];
+    const IndexRange& range = levels_[item.primitive].indices[static_cast<std::size_t>(level)];
     Run& run = runs.back();
     ++run.commandCount;
     if (item.state.topology == Topology::triangles)

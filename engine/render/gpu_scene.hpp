@@ -26,6 +26,7 @@
 #include "render/draw_list.hpp"
 #include "render/scene_upload.hpp"
 #include "scene/scene.hpp"
+#include "scene/simplify.hpp"
 
 namespace dioptre {
 
@@ -48,8 +49,9 @@ class GpuScene {
     /// of the scene's motion. Nothing is done where it is the pose before.
     void pose(const MotionPose& pose, PassLog& log);
 
-    /// A primitive's next level of detail (scene/lod.hpp), level 1 first: for all instances that do not bend it.
-    void addLevel(std::size_t mesh, std::size_t primitive, std::span<const std::uint32_t> indices);
+    /// A primitive's next level of detail (scene/lod.hpp), level 1 first: for all instances that do not bend it. Lists
+    /// of what is seen are to be made anew.
+    void addLevel(std::size_t mesh, std::size_t primitive, const LodLevel& level);
 
     /// Another number with each other pose or further level of detail.
     std::uint64_t version() const { return version_; }
@@ -100,7 +102,7 @@ class GpuScene {
         AlphaMode alphaMode = AlphaMode::opaque;
         bool lit = false, doubleSided = false;
         bool mapped = false;  // a texture is not read at the vertex's first coordinates
-        bool occluded = false;
+        bool occluded = false, emits = false, surfaceMapped = false, bumped = false;  // has such a texture, or emits
     };
     // What is drawn of a surface; `blended`: what the others see through it.
     enum class Phase { surface, blended, depth };
@@ -115,6 +117,7 @@ class GpuScene {
     void applyPose();
     void makePrograms();
     unsigned featuresOf(const State& state, Phase phase) const;
+    void sortFrontToBack(DrawList& list) const;
     void append(DrawList& list, std::vector<Run>& runs, const DrawList::Seen& seen, int matrices, int level,
                 Faces faces) const;
     void setLodBias(float bias) const;
@@ -122,10 +125,14 @@ class GpuScene {
     void drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const;
     void bind(const Run& run) const;
 
-    std::vector<Item> items_;                      // sorted by state
-    std::vector<std::vector<IndexRange>> levels_;  // of each primitive, level 0 first
-    std::vector<std::size_t> firstPrimitive_;      // of each mesh, in levels_
-    std::uint32_t indexCount_ = 0;                 // of all levels
+    std::vector<Item> items_;  // sorted by state
+    struct Levels {            // level 0 first
+        std::vector<IndexRange> indices;
+        std::vector<float> errors;
+    };
+    std::vector<Levels> levels_;               // of each primitive
+    std::vector<std::size_t> firstPrimitive_;  // of each mesh, in levels_
+    std::uint32_t indexCount_ = 0;             // of all levels
     std::vector<BoundMaterial> materials_;
     std::vector<Light> lights_;
     float skyRadiance_ = 0.0f;

@@ -28,7 +28,8 @@ const Texture& ShowPass::draw(const EyeFrame& frame, const Texture& depth) {
             break;
         default:
             throw InputError(
-                "--show: don, level and pyramid are stages of --technique mipmap; others have vergence, coc, dob");
+                "--show: don, level and pyramid are stages of --technique mipmap, lod is one of accumulate; all have "
+                "vergence, coc, dob");
     }
     PassScope scope(frame.log, "show");
     if (!fromDepth_.program()) fromDepth_ = FullscreenPass("common/show_depth.frag.glsl");

@@ -45,6 +45,10 @@ bool usesMsaa(TechniqueChoice choice) {
     return choice == TechniqueChoice::pinhole || choice == TechniqueChoice::mipmap;
 }
 
+bool usesLevels(TechniqueChoice choice) {
+    return choice == TechniqueChoice::accumulate;
+}
+
 std::vector<std::pair<std::string_view, int>> TechniqueDials::dials() const {
     std::vector<std::pair<std::string_view, int>> list;
     if (msaa) list.emplace_back("msaa", *msaa);

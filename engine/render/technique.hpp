@@ -70,6 +70,8 @@ std::string_view techniqueName(TechniqueChoice choice);
 int defaultSamples(TechniqueChoice choice);
 /// Whether antialiasing by msaa is its own choice.
 bool usesMsaa(TechniqueChoice choice);
+/// Whether it draws levels of detail (GpuScene::addLevel).
+bool usesLevels(TechniqueChoice choice);
 
 /// A technique and the values of its dials; a dial that it does not have is empty.
 struct TechniqueDials {

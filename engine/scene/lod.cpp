@@ -224,4 +224,19 @@ double LodBuilder::progress() const {
     return state_->progress();
 }
 
+std::vector<BuiltLevel> buildLevels(const Scene& scene, const LodOptions& options) {
+    constexpr auto kStep = std::chrono::milliseconds(20);
+    constexpr int kQuietSteps = 10;
+    constexpr std::size_t kPercent = 100;
+    LodBuilder builder(scene, options);
+    std::optional<ProgressLine> line;
+    for (int steps = 0; !builder.finished(); ++steps) {
+        std::this_thread::sleep_for(kStep);
+        if (steps < kQuietSteps) continue;
+        if (!line) line.emplace("making levels of detail, percent", kPercent);
+        line->update(static_cast<std::size_t>(builder.progress() * kPercent));
+    }
+    return builder.take();
+}
+
 }  // namespace dioptre

@@ -52,4 +52,7 @@ class LodBuilder {
     std::unique_ptr<State> state_;
 };
 
+/// All of them at once; shows progress where that takes a while.
+std::vector<BuiltLevel> buildLevels(const Scene& scene, const LodOptions& options);
+
 }  // namespace dioptre

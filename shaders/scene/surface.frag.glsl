@@ -1,5 +1,6 @@
 // Radiance of a surface: unlit, or metallic-roughness under punctual lights and a soft sky (glTF 2.0, appendix B).
-// Without LIT the base colour is the radiance; with EMISSIVE the emission is added to it, as to a lit one.
+// Without LIT the base colour is the radiance; with EMISSIVE the emission is added. SURFACE_MAP, NORMAL_MAP, OCCLUSION:
+// the material has that texture.
 #include "scene/base_color.glsl"
 #include "scene/brdf.glsl"
 
@@ -19,23 +20,27 @@ layout(location = 0) out vec4 radiance;
 #ifdef LIT
 vec3 shadingNormal(MaterialData m) {
     vec3 n = normalize(surface.normal) * (gl_FrontFacing ? 1.0 : -1.0);
-    if (m.surface.w > 0.0) {
-        vec3 t = surface.tangent.xyz - n * dot(n, surface.tangent.xyz);
-        if (dot(t, t) > 1e-20) {
-            t = normalize(t);
-            vec3 b = cross(n, t) * surface.tangent.w;
-            vec3 local = texture(normalTexture, uvOf(kNormal)).xyz * 2.0 - 1.0;
-            local.xy *= m.emissive.w;
-            n = normalize(mat3(t, b, n) * local);
-        }
+#ifdef NORMAL_MAP
+    vec3 t = surface.tangent.xyz - n * dot(n, surface.tangent.xyz);
+    if (dot(t, t) > 1e-20) {
+        t = normalize(t);
+        vec3 b = cross(n, t) * surface.tangent.w;
+        vec3 local = texture(normalTexture, uvOf(kNormal)).xyz * 2.0 - 1.0;
+        local.xy *= m.emissive.w;
+        n = normalize(mat3(t, b, n) * local);
     }
+#endif
     return n;
 }
 
 vec3 lit(MaterialData m, vec3 baseColor) {
+    float metallic = m.surface.x;
+    float roughness = m.surface.y;
+#ifdef SURFACE_MAP
     vec4 mr = texture(metallicRoughnessTexture, uvOf(kMetallicRoughness));
-    float metallic = m.surface.x * mr.b;
-    float roughness = m.surface.y * mr.g;
+    metallic *= mr.b;
+    roughness *= mr.g;
+#endif
     vec3 n = shadingNormal(m);
     vec3 v = normalize(-surface.viewPosition);
     Reflectance r = reflectance(baseColor, metallic, roughness, max(dot(n, v), 1e-4));
@@ -61,7 +66,7 @@ void main() {
 #else
     vec3 color = baseColor.rgb;
 #endif
-#if defined(LIT) || defined(EMISSIVE)
+#ifdef EMISSIVE
     color += m.emissive.rgb * texture(emissiveTexture, uvOf(kEmissive)).rgb;
 #endif
     // Half floats end at 65504; NaN (0/0 in a degenerate triangle) becomes 0 by the order of max's arguments.

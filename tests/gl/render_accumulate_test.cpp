@@ -152,7 +152,7 @@ TEST_F(AccumulateGLTest, WhatIsBlurredIsDrawnAtItsLevel) {
     const Lens blurred = lensFor(shot.view, 12.0, 0.2, 1.0);
     shot.lens = blurred;
     const Image before = draw(scene, shot, 16, 0);
-    scene.addLevel(0, 0, made.left);
+    scene.addLevel(0, 0, {made.left, 0.0f, 0.0f});
     EXPECT_NE(scene.version(), version);
     EXPECT_EQ(plain(scene, shot, 16).pixels, before.pixels) << "the reference is drawn at level 0";
 
@@ -161,6 +161,14 @@ TEST_F(AccumulateGLTest, WhatIsBlurredIsDrawnAtItsLevel) {
     EXPECT_EQ(scene.trianglesDrawn() - triangles, 16u * made.left.size() / 3);
     EXPECT_GT(meanColor(coarse, 60, 50, 90, 100).x, 0.8);
     EXPECT_LT(meanColor(coarse, 115, 50, 130, 100).x, 0.05);
+
+    // White is level 0, then blue.
+    shot.show.stage = ShowChoice::lod;
+    const Image levels = test::draw(technique_, scene, shot);
+    EXPECT_NEAR(pixelAt(levels, 75, 70).r, 0.1, 1e-3);
+    EXPECT_NEAR(pixelAt(levels, 75, 70).b, 1.0, 1e-3);
+    shot.show.stage = ShowChoice::none;
+    EXPECT_EQ(draw(scene, shot, 16, 0).pixels, coarse.pixels) << "which leaves nothing behind";
 
     // Half a level: so much of the lens.
     double least = 0.0, most = 1.0;

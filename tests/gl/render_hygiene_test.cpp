@@ -137,19 +137,25 @@ TEST_F(HygieneGLTest, ObjectsDoNotPileUpOverFrames) {
 
 TEST_F(HygieneGLTest, ObjectsDoNotPileUpOverStagesShown) {
     const GpuScene scene(aScene());
-    const auto technique = makeTechnique(TechniqueChoice::mipmap);
-    const auto frames = [&](int count) {
-        for (int i = 0; i < count; ++i) {
-            Shot shot = aShot(64 + 16 * (i % 5), 64, 0);
-            shot.show.stage = static_cast<ShowChoice>(i % 7);
-            draw(*technique, scene, shot);
-        }
-        draw(*technique, scene, aShot(96, 64, 0));
-    };
-    frames(14);
-    const auto before = alive();
-    frames(35);
-    expectSame(before, "stages");
+    const std::vector<ShowChoice> ofMipmap{ShowChoice::none, ShowChoice::vergence, ShowChoice::coc,    ShowChoice::dob,
+                                           ShowChoice::don,  ShowChoice::level,    ShowChoice::pyramid};
+    const std::vector<ShowChoice> ofAccumulate{ShowChoice::none, ShowChoice::coc, ShowChoice::lod};
+    for (const auto& [choice, stages] :
+         {std::pair(TechniqueChoice::mipmap, ofMipmap), {TechniqueChoice::accumulate, ofAccumulate}}) {
+        const auto technique = makeTechnique(choice);
+        const auto frames = [&](std::size_t count) {
+            for (std::size_t i = 0; i < count; ++i) {
+                Shot shot = aShot(64 + 16 * static_cast<int>(i % 5), 64, 0);
+                shot.show.stage = stages[i % stages.size()];
+                draw(*technique, scene, shot);
+            }
+            draw(*technique, scene, aShot(96, 64, 0));
+        };
+        frames(14);
+        const auto before = alive();
+        frames(35);
+        expectSame(before, std::string(techniqueName(choice)));
+    }
 }
 
 TEST_F(HygieneGLTest, EverythingIsGivenBack) {

@@ -103,7 +103,7 @@ TEST_F(ShowGLTest, DeepPyramidLevelsAreFiniteOrRefused) {
 }
 
 TEST_F(ShowGLTest, PinholeRefusesStagesItDoesNotHave) {
-    for (const ShowChoice stage : {ShowChoice::don, ShowChoice::level, ShowChoice::pyramid})
+    for (const ShowChoice stage : {ShowChoice::don, ShowChoice::level, ShowChoice::lod, ShowChoice::pyramid})
         EXPECT_THROW(show(TechniqueChoice::pinhole, {stage, 0}), InputError) << "stage " << int(stage);
     // And goes on afterwards.
     EXPECT_GT(pixelAt(show(TechniqueChoice::pinhole, {}), 30, 70).x, 0.85);

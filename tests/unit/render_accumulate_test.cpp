@@ -64,17 +64,39 @@ TEST(DetailTest, TheSmallestCircleOfConfusionIsThatOfTheBoxOrNone) {
     EXPECT_NEAR(cocExtent(view, lens, box(-3.0, 1.0)).largest, 0.01 * f * 19.5, 1e-9) << "cut at the near plane";
     EXPECT_EQ(cocExtent(view, Lens{Metres(0.0), Metres(0.05), Dioptres(0.0)}, box(1.0, 2.0)).largest, 0.0);
 
-    DrawList::Seen seen{0, box(4.0, 8.0), false, 100000, 9};
+    const std::vector<float> exact(9, 0.0f);
+    DrawList::Seen seen{0, box(4.0, 8.0), false, 100000, exact};
     const double level = detailLevel(view, lens, seen);
     EXPECT_GT(level, 0.0);
     // Half as many triangles: a level less. A smaller lens: an area's logarithm less.
     seen.triangles = 50000;
     EXPECT_NEAR(detailLevel(view, lens, seen), level - 1.0, 1e-9);
-    seen.levels = 1;
+    seen.errors = std::span(exact).first(1);
     EXPECT_EQ(detailLevel(view, lens, seen), 0.0);
-    seen.levels = 9;
+    seen.errors = exact;
     seen.box.half = glm::dvec3(9.0);
     EXPECT_EQ(detailLevel(view, lens, seen), 0.0) << "the eye is in it";
+}
+
+TEST(DetailTest, ALevelsErrorIsBounded) {
+    const std::vector<float> errors{0.0f, 0.1f, 0.3f, 0.3f, 1.1f};
+    EXPECT_EQ(levelOfError(errors, 0.0), 0.0);
+    EXPECT_NEAR(levelOfError(errors, 0.05), 0.5, 1e-6);
+    EXPECT_NEAR(levelOfError(errors, 0.2), 1.5, 1e-6);
+    EXPECT_NEAR(levelOfError(errors, 0.5), 3.25, 1e-6);
+    EXPECT_EQ(levelOfError(errors, 2.0), 4.0);
+    EXPECT_EQ(levelOfError(std::span(errors).first(1), 2.0), 0.0);
+
+    // The same object, coarser levels with errors: not beyond what its blur allows.
+    const View view = aView();
+    const Lens lens{Metres(0.01), Metres(0.05), Dioptres(0.5)};
+    const std::vector<float> growing{0.0f, 0.001f, 0.002f, 0.004f, 0.008f, 1.0f};
+    DrawList::Seen seen{0, {{0.0, 0.0, -6.0}, {0.1, 0.1, 2.0}}, false, 100000, growing};
+    const double level = detailLevel(view, lens, seen);
+    // CoC 0.01 * 640 * 0.25 px = 1.6 px, of that kErrorOfBlur at 4 m: 640 px are 4 m.
+    EXPECT_NEAR(level, levelOfError(growing, kErrorOfBlur * 1.6 * 4.0 / 640.0), 1e-9);
+    seen.scale = 2.0;
+    EXPECT_LT(detailLevel(view, lens, seen), level);
 }
 
 TEST(DetailTest, TheFractionOfALevelIsAShareOfTheSamples) {

@@ -1,6 +1,7 @@
 #include "render/accumulate/accumulate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "optics/lens_samples.hpp"
@@ -30,6 +31,14 @@ std::vector<glm::mat4> clipsOf(const EyeFrame& frame, std::span<const LensSample
     clips.reserve(samples.size());
     for (const LensSample& sample : samples) clips.emplace_back(clipFromView(frame.view, frame.lens, sample));
     return clips;
+}
+
+/// White is the finest; then blue to green to red, from level 1 to 8 and coarser.
+glm::vec3 levelColor(int level) {
+    if (level == 0) return glm::vec3(1.0f);
+    const float along = std::min(1.0f, static_cast<float>(level - 1) / 7.0f);
+    const glm::vec3 blue(0.1f, 0.3f, 1.0f), green(0.2f, 1.0f, 0.2f), red(1.0f, 0.1f, 0.05f);
+    return along < 0.5f ? glm::mix(blue, green, along * 2.0f) : glm::mix(green, red, along * 2.0f - 1.0f);
 }
 
 }  // namespace
@@ -130,7 +139,38 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
     blur_.add({layers_, first, count, cocTransform(frame), f.y / f.x}, subsamples_, sum_);
 }
 
+const Texture& Accumulate::showLevels(const EyeFrame& frame) {
+    layers_.resize(frame.view.width, frame.view.height, GpuScene::mostMatrices());
+    EyeFrame one = frame;
+    one.samples = 1;
+    one.budgetMilliseconds = 0.0;
+    sum_.begin(one);
+    frame.scene.see(list_, frame.view, nullptr);
+    makePlan(one);
+    const int levels = list_.seen().empty() ? 0 : std::ranges::max(list_.seen(), {}, &DrawList::Seen::levels).levels();
+    const glm::mat4 clip(clipFromView(frame.view));
+    PassScope scope(frame.log, "show");
+    layers_.bind(true);
+    for (int level = 0; level < levels; ++level) {
+        std::vector<std::int8_t> only(plan_.levels.size(), DrawList::kHidden);
+        for (std::size_t i = 0; i < only.size(); ++i)
+            if (static_cast<int>(std::lround(plan_.levels[i])) == level) only[i] = static_cast<std::int8_t>(level);
+        frame.scene.arrange(list_, 1, only);
+        // What is drawn, times the level's colour
+        const glm::vec3 color = levelColor(level);
+        glEnable(GL_BLEND);
+        glBlendColor(color.r, color.g, color.b, 1.0f);
+        glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
+        frame.scene.drawThroughLens(list_, {&clip, 1}, frame.exposure, 0.0f);
+        glDisable(GL_BLEND);
+    }
+    arrangedFor_ = 0;
+    sum_.add(layers_, 1);
+    return sum_.mean();
+}
+
 const Texture& Accumulate::draw(const EyeFrame& frame) {
+    if (frame.show.stage == ShowChoice::lod) return showLevels(frame);
     if (frame.show.stage != ShowChoice::none) {
         geometry_.draw(frame.scene, frame.view, frame.exposure, 0, frame.log);
         return show_.draw(frame, geometry_.depth());

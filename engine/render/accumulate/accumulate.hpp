@@ -41,6 +41,7 @@ class Accumulate final : public Technique {
     const Plan& plan() const { return plan_; }
 
   private:
+    const Texture& showLevels(const EyeFrame& frame);
     void makePlan(const EyeFrame& frame);
     void drawSprites(const EyeFrame& frame);
     void drawGroup(const EyeFrame& frame, int count);

@@ -28,10 +28,21 @@ double detailLevel(double cocArea, double triangleArea, int mostLevel) {
 }
 
 double detailLevel(const View& view, const Lens& lens, const DrawList::Seen& seen) {
-    if (seen.levels < 2) return 0.0;
+    if (seen.levels() < 2) return 0.0;
     const double radius = cocExtent(view, lens, seen.box).smallest;
-    return detailLevel(std::numbers::pi * radius * radius, sphereArea(view, seen.box) / (0.5 * seen.triangles),
-                       seen.levels - 1);
+    const double asPublished = detailLevel(std::numbers::pi * radius * radius,
+                                           sphereArea(view, seen.box) / (0.5 * seen.triangles), seen.levels() - 1);
+    const double pixelsPerMetre =
+        seen.scale * focalLengthPixels(view).x / std::max(view.near.value, seen.box.nearest());
+    return std::min(asPublished, levelOfError(seen.errors, kErrorOfBlur * radius / pixelsPerMetre));
+}
+
+double levelOfError(std::span<const float> errors, double allowed) {
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+        const double finer = static_cast<double>(errors[i - 1]), coarser = static_cast<double>(errors[i]);
+        if (coarser > allowed) return static_cast<double>(i - 1) + std::max(0.0, allowed - finer) / (coarser - finer);
+    }
+    return static_cast<double>(errors.size() - 1);
 }
 
 int levelOfSample(double level, int sample, int count) {
