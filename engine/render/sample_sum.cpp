@@ -22,6 +22,15 @@ void SampleLayers::bind(bool clear) const {
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &infinitelyFar);
 }
 
+void SampleLayers::clear(int first, int count) const {
+    const float black[] = {0.0f, 0.0f, 0.0f, 1.0f};
+    const float infinitelyFar = 0.0f;
+    const int width = colors_.width(), height = colors_.height();
+    glClearTexSubImage(colors_.name(), 0, 0, 0, first, width, height, count, GL_RGBA, GL_FLOAT, black);
+    glClearTexSubImage(depths_.name(), 0, 0, 0, first, width, height, count, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       &infinitelyFar);
+}
+
 void SampleSum::begin(const EyeFrame& frame) {
     const auto& [width, height] = std::pair(frame.view.width, frame.view.height);
     const bool resized = !sum_ || sum_.width() != width || sum_.height() != height;

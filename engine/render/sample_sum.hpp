@@ -18,6 +18,8 @@ class SampleLayers {
     void resize(int width, int height, int layers);
     /// Makes all layers the draw target; with `clear`, black and infinitely far.
     void bind(bool clear) const;
+    /// Some layers alone to black and infinitely far.
+    void clear(int first, int count) const;
     const Texture& colors() const { return colors_; }
     const Texture& depths() const { return depths_; }
     std::size_t bytes() const { return colors_ ? colors_.bytes() + depths_.bytes() : 0; }

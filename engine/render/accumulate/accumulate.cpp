@@ -78,31 +78,28 @@ std::vector<std::int8_t> Accumulate::levelsFor(bool shared, int first, int count
     return levels;
 }
 
-void Accumulate::drawSprites(const EyeFrame& frame) {
-    const std::span<const LensSample> parents(plan_.sharing.parents);
-    if (parents.empty()) {
-        frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
-        return;
-    }
+void Accumulate::drawSprites(const EyeFrame& frame, int needed) {
+    if (needed <= sprites_.drawn) return;
     PassScope scope(frame.log, "sprites");
-    const auto total = static_cast<int>(parents.size());
-    sprites_.resize(frame.view.width, frame.view.height, gpu::kSpriteLayers);
-    sprites_.bind(true);
-    frame.scene.see(spriteList_, frame.view, &frame.lens);
-    for (int first = 0; first < total; first += gpu::kMostMatrices) {
-        const int count = std::min(gpu::kMostMatrices, total - first);
-        frame.scene.arrange(spriteList_, count, levelsFor(true, first, count, total));
+    const std::span<const LensSample> parents(plan_.sharing.parents);
+    sprites_.layers.resize(frame.view.width, frame.view.height, gpu::kSpriteLayers);
+    arrangedFor_ = 0;
+    while (sprites_.drawn < needed) {
+        const int first = sprites_.drawn, count = std::min(gpu::kMostMatrices, needed - first);
+        sprites_.layers.clear(first, count);
+        sprites_.layers.bind(false);
+        frame.scene.arrange(list_, count, levelsFor(true, first, count, static_cast<int>(parents.size())));
         frame.scene.drawThroughLens(
-            spriteList_,
-            clipsOf(frame, parents.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count))),
-            frame.exposure, textureLodBias(total), first);
+            list_, clipsOf(frame, parents.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count))),
+            frame.exposure, textureLodBias(static_cast<int>(parents.size())), first);
+        sprites_.drawn += count;
     }
-    if (!spritePass_.program()) spritePass_ = FullscreenPass::layered("accumulate/sprites.frag.glsl");
 }
 
 void Accumulate::beginWithSprites(int first, int count) {
-    sprites_.colors().bind(0);
-    sprites_.depths().bind(1);
+    if (!spritePass_.program()) spritePass_ = FullscreenPass::layered("accumulate/sprites.frag.glsl");
+    sprites_.layers.colors().bind(0);
+    sprites_.layers.depths().bind(1);
     const auto parentOf = plan_.sharing.parentOf.begin() + first;
     spritePass_.program().set("spriteOf", std::vector<int>(parentOf, parentOf + count));
     glEnable(GL_DEPTH_TEST);
@@ -114,6 +111,11 @@ void Accumulate::beginWithSprites(int first, int count) {
 
 void Accumulate::drawGroup(const EyeFrame& frame, int count) {
     const int first = sum_.drawn();
+    const bool shares = !plan_.sharing.parents.empty();
+    if (shares) {
+        const auto parentOf = plan_.sharing.parentOf.begin() + first;
+        drawSprites(frame, *std::max_element(parentOf, parentOf + count) + 1);
+    }
     std::vector<std::int8_t> levels = levelsFor(false, first, count, frame.samples);
     if (levels != arranged_ || count != arrangedFor_) {
         frame.scene.arrange(list_, count, levels);
@@ -122,7 +124,6 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
     }
     {
         PassScope scope(frame.log, "samples");
-        const bool shares = !plan_.sharing.parents.empty();
         layers_.bind(!shares);
         if (shares) beginWithSprites(first, count);
         std::vector<LensSample> samples;
@@ -185,7 +186,8 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
     }
     if (sum_.drawn() == 0) {
         makePlan(frame);
-        drawSprites(frame);
+        sprites_.drawn = 0;
+        if (plan_.sharing.parents.empty()) frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
         subsamples_ = frame.subsamples > 0 ? subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample)
                                            : Subsamples{};
     }
@@ -200,7 +202,7 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
 }
 
 std::size_t Accumulate::bytes() const {
-    return geometry_.bytes() + layers_.bytes() + sprites_.bytes() + sum_.bytes() + blur_.bytes();
+    return geometry_.bytes() + layers_.bytes() + sprites_.layers.bytes() + sum_.bytes() + blur_.bytes();
 }
 
 }  // namespace dioptre

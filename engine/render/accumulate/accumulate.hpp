@@ -43,18 +43,23 @@ class Accumulate final : public Technique {
   private:
     const Texture& showLevels(const EyeFrame& frame);
     void makePlan(const EyeFrame& frame);
-    void drawSprites(const EyeFrame& frame);
+    /// Those that are missing of the first `needed`.
+    void drawSprites(const EyeFrame& frame, int needed);
     void drawGroup(const EyeFrame& frame, int count);
     void beginWithSprites(int first, int count);
     /// Those of the shared items, or of the others, that renderings `first` and on of `total` take; the rest hidden.
     std::vector<std::int8_t> levelsFor(bool shared, int first, int count, int total) const;
 
-    DrawList list_, spriteList_;
+    DrawList list_;
     std::vector<std::int8_t> arranged_;  // levels that the list is arranged for
     int arrangedFor_ = 0;                // matrices
     Plan plan_;
     Subsamples subsamples_;
-    SampleLayers layers_{"lens samples"}, sprites_{"shared renderings"};
+    SampleLayers layers_{"lens samples"};
+    struct {
+        SampleLayers layers{"shared renderings"};
+        int drawn = 0;
+    } sprites_;
     SampleSum sum_;
     SubsampleBlur blur_;
     FullscreenPass spritePass_;

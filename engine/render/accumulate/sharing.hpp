@@ -16,8 +16,10 @@
 namespace dioptre {
 
 struct SharedRenderings {
-    std::vector<LensSample> parents;  // point of the lens and the pixel's jitter, which all who share have in common
-    std::vector<int> parentOf;        // of each sample
+    // Point of the lens and the pixel's jitter, which all who share have in common; in the order in which samples first
+    // need them.
+    std::vector<LensSample> parents;
+    std::vector<int> parentOf;  // of each sample
 };
 
 /// Each sample has one parent. A parent's pixel jitter is that of all who share it, so it stands for at most one in
