@@ -6,12 +6,12 @@ namespace {
 
 class ViewTest : public ProgramTest {
   protected:
-    /// Opens the scene in a window of 320x120, does the steps (a shell script: $window, $program, $drop), and waits until
+    /// Opens the scene, with options, in a window of 320x120, does the steps (a shell script: $window, $program, $drop), and waits until
     /// the program ends.
-    Outcome view(const std::string& steps) {
+    Outcome view(const std::string& steps, const std::string& scene = "scene.gltf") {
         leaksAllowed = true;
-        write("steps.sh", R"(
-"$1" view scene.gltf --size 160x120 --log log.csv & program=$!
+        write("steps.sh",
+              "export XDG_CACHE_HOME=$PWD/cache; \"$1\" view " + scene + R"( --size 160x120 --log log.csv & program=$!
 drop=$2
 for try in $(seq 100); do
     window=$(xdotool search --onlyvisible --name '^Dioptre: .*focus' 2>/dev/null) && break
@@ -98,6 +98,21 @@ title 'Dioptre: another  focus'
     EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     EXPECT_THAT(outcome.err, testing::HasSubstr("error: scene.broken.gltf: JSON: "));
     EXPECT_EQ(linesOf(outcome.err).size(), 1u) << outcome.err;
+}
+
+TEST_F(ViewTest, LevelsOfDetailAreMadeWhileTheWindowShowsTheScene) {
+    const Outcome outcome = view(R"(
+title 'accumulate, 8 samples'
+for try in $(seq 100); do
+    ls cache/dioptre/lods/* >/dev/null 2>&1 && break
+    sleep 0.1
+done
+ls cache/dioptre/lods | wc -l
+)",
+                                 "builtin:studio --technique accumulate --samples 8");
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_GT(std::stoi(linesOf(outcome.out).back()), 0) << outcome.out;
 }
 
 TEST_F(ViewTest, WithoutADisplayTheRunFailsInOneLine) {

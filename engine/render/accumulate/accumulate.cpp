@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "optics/lens_samples.hpp"
 #include "render/accumulate/detail.hpp"
@@ -142,31 +143,34 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
 
 const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     layers_.resize(frame.view.width, frame.view.height, GpuScene::mostMatrices());
-    EyeFrame one = frame;
-    one.samples = 1;
-    one.budgetMilliseconds = 0.0;
-    sum_.begin(one);
+    EyeFrame anew = frame;
+    anew.budgetMilliseconds = 0.0;
+    sum_.begin(anew);
     frame.scene.see(list_, frame.view, nullptr);
-    makePlan(one);
+    makePlan(frame);
     const int levels = list_.seen().empty() ? 0 : std::ranges::max(list_.seen(), {}, &DrawList::Seen::levels).levels();
     const glm::mat4 clip(clipFromView(frame.view));
     PassScope scope(frame.log, "show");
-    layers_.bind(true);
-    for (int level = 0; level < levels; ++level) {
-        std::vector<std::int8_t> only(plan_.levels.size(), DrawList::kHidden);
-        for (std::size_t i = 0; i < only.size(); ++i)
-            if (static_cast<int>(std::lround(plan_.levels[i])) == level) only[i] = static_cast<std::int8_t>(level);
-        frame.scene.arrange(list_, 1, only);
-        // What is drawn, times the level's colour
-        const glm::vec3 color = levelColor(level);
-        glEnable(GL_BLEND);
-        glBlendColor(color.r, color.g, color.b, 1.0f);
-        glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
-        frame.scene.drawThroughLens(list_, {&clip, 1}, frame.exposure, 0.0f);
-        glDisable(GL_BLEND);
+    // The mean of the picture in the levels' colours and of these alone: what outshines all that half floats hold is cut
+    // to one value.
+    constexpr float kMostRadiance = 65504.0f, kOutshining = 1e30f;
+    for (const auto& [exposure, scale] : {std::pair(frame.exposure, 1.0f), {kOutshining, 1.0f / kMostRadiance}}) {
+        layers_.bind(true);
+        for (int level = 0; level < levels; ++level) {
+            std::vector<std::int8_t> only(plan_.levels.size(), DrawList::kHidden);
+            for (std::size_t i = 0; i < only.size(); ++i)
+                if (static_cast<int>(std::lround(plan_.levels[i])) == level) only[i] = static_cast<std::int8_t>(level);
+            frame.scene.arrange(list_, 1, only);
+            const glm::vec3 color = levelColor(level) * scale;
+            glEnable(GL_BLEND);
+            glBlendColor(color.r, color.g, color.b, 1.0f);
+            glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
+            frame.scene.drawThroughLens(list_, {&clip, 1}, exposure, 0.0f);
+            glDisable(GL_BLEND);
+        }
+        sum_.add(layers_, 1);
     }
     arrangedFor_ = 0;
-    sum_.add(layers_, 1);
     return sum_.mean();
 }
 
