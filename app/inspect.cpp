@@ -97,8 +97,8 @@ void runInspect(const Command& command) {
     if (command.lods) return inspectLods(scene);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
-    const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
     if (usesLevels(command.settings.render.technique)) maker.addLevels(buildLevels(scene, {lodFolder()}));
+    const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
     scene.releaseBulk();
     FrameMaker::Input input;
     input.time = command.settings.view.time;

@@ -54,6 +54,10 @@ struct Show {
         levels.reset();
         scene.releaseBulk();
     }
+    /// "  levels 37 %" while they are made.
+    std::string progressText() const {
+        return levels ? fmt::format("  levels {:.0f} %", levels->progress() * 100.0) : "";
+    }
     Scene scene;
     FrameMaker maker;
     std::unique_ptr<LodBuilder> levels;
@@ -112,10 +116,11 @@ class Viewer {
         glfwGetFramebufferSize(window_.handle(), &size.width, &size.height);
         if (size.width > 0 && size.height > 0) show_->maker.present(size);
         glfwSwapBuffers(window_.handle());
-        const std::string title = input.time < noticeUntil_
-                                      ? notice_
-                                      : fmt::format("Dioptre: {}  focus {:.2f} D  {}  {:.1f} ms", show_->scene.name,
-                                                    frame.lens.lens.focus.value, frame.plan, frame.milliseconds);
+        const std::string title =
+            input.time < noticeUntil_
+                ? notice_
+                : fmt::format("Dioptre: {}  focus {:.2f} D  {}  {:.1f} ms{}", show_->scene.name,
+                              frame.lens.lens.focus.value, frame.plan, frame.milliseconds, show_->progressText());
         glfwSetWindowTitle(window_.handle(), title.c_str());
         return frame;
     }

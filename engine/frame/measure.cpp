@@ -117,7 +117,7 @@ void Measuring::keep(const MeasuredView& view) {
 bool Measuring::add(const std::string& name, const Scene& scene) {
     const std::string content = contentOf(scene);
     GpuScene gpu(scene);
-    for (const BuiltLevel& built : buildLevels(scene, {request_.lods}))
+    for (const BuiltLevel& built : buildLevels(scene, {request_.lods}, request_.stopped))
         gpu.addLevel(built.mesh, built.primitive, built.data);
     for (const PictureSize& size : request_.sizes) {
         ViewSettings settings = request_.view;

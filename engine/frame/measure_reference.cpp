@@ -30,7 +30,7 @@ constexpr double kStopMilliseconds = 200.0;
 /// The shaders that take part, so that a change of lighting makes new references.
 void addShaders(ContentHash& hash) {
     std::vector<fs::path> files;
-    for (const char* folder : {"shaders/scene", "shaders/reference", "shaders/common", "shaders/shared"})
+    for (const char* folder : {"shaders/scene", "shaders/common", "shaders/shared"})
         for (const auto& entry : fs::directory_iterator(resource(folder)))
             if (entry.is_regular_file()) files.push_back(entry.path());
     std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {

@@ -94,9 +94,9 @@ Program::Program(std::span<const Stage> stages, const std::vector<std::string>& 
 FullscreenPass::FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines)
     : program_("common/fullscreen.vert.glsl", fragment, defines), vertexArray_(makeVertexArray("full screen")) {}
 
-FullscreenPass FullscreenPass::layered(std::string_view fragment, std::vector<std::string> defines) {
-    if (GLAD_GL_ARB_shader_viewport_layer_array) defines.emplace_back("LAYERED");
-    return FullscreenPass(fragment, defines);
+FullscreenPass FullscreenPass::layered(std::string_view fragment) {
+    if (GLAD_GL_ARB_shader_viewport_layer_array) return FullscreenPass(fragment, {"LAYERED"});
+    return FullscreenPass(fragment);
 }
 
 void FullscreenPass::draw(int layers) const {

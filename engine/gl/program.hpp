@@ -62,7 +62,7 @@ class FullscreenPass {
     explicit FullscreenPass(std::string_view fragment, const std::vector<std::string>& defines = {});
     /// To every layer of a layered framebuffer: gl_Layer is the layer. More than one only where the vertex stage can
     /// choose it (GL_ARB_shader_viewport_layer_array).
-    static FullscreenPass layered(std::string_view fragment, std::vector<std::string> defines = {});
+    static FullscreenPass layered(std::string_view fragment);
     const Program& program() const { return program_; }
     void draw(int layers = 1) const;
 

@@ -1,6 +1,7 @@
 #include "render/gpu_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "render/scene_upload.hpp"
@@ -59,6 +60,16 @@ GLenum glMode(Topology topology) {
             return GL_TRIANGLES;
     }
     return GL_TRIANGLES;
+}
+
+/// A bound of how much a map stretches any direction, exact without shear: by Gershgorin's circles no eigenvalue of
+/// transpose(M) M is beyond its greatest sum of a row.
+double mostStretch(const glm::dmat3& m) {
+    const glm::dmat3 squared = glm::transpose(m) * m;
+    double most = 0.0;
+    for (glm::length_t i = 0; i < 3; ++i)
+        most = std::max(most, std::abs(squared[i].x) + std::abs(squared[i].y) + std::abs(squared[i].z));
+    return std::sqrt(most);
 }
 
 }  // namespace
@@ -179,7 +190,7 @@ void GpuScene::addLevel(std::size_t mesh, std::size_t primitive, const LodLevel&
     const std::span<const std::uint32_t> indices(level.indices);
     const std::size_t needed = (indexCount_ + indices.size()) * sizeof(std::uint32_t);
     if (needed > indices_.bytes()) {
-        // All levels of a primitive together have no more triangles than the first: twice is enough.
+        // Levels that halve their triangles have no more than the first, all together: twice is mostly enough.
         Buffer larger(std::max(needed, 2 * indices_.bytes()), nullptr, true, "indices");
         glCopyNamedBufferSubData(indices_.name(), larger.name(), 0, 0, static_cast<GLsizeiptr>(indices_.bytes()));
         indices_ = std::move(larger);
@@ -293,8 +304,7 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
         if (!mayBeSeen(view, lens, box)) continue;
         instances[i] = {glm::mat4(viewFromMesh), glm::uvec4(item.state.material, 0, 0, 0)};
         const Levels& levels = levels_[item.primitive];
-        const glm::dmat3 linear(viewFromMesh);
-        const double scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+        const double scale = mostStretch(glm::dmat3(viewFromMesh));
         const bool triangles = item.state.topology == Topology::triangles;
         list.seen_.push_back({static_cast<std::uint32_t>(i), box, item.state.blended,
                               triangles ? levels.indices.front().count / 3 : 0,
@@ -303,8 +313,10 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     sortFrontToBack(list);
     for (std::size_t i = 0; i < list.seen_.size(); ++i)
         if (list.seen_[i].blended) list.blended_.push_back(i);
-    std::stable_sort(list.blended_.begin(), list.blended_.end(), [&](std::size_t a, std::size_t b) {
-        return list.seen_[a].box.centre.z < list.seen_[b].box.centre.z;
+    std::sort(list.blended_.begin(), list.blended_.end(), [&](std::size_t a, std::size_t b) {
+        const DrawList::Seen &seenA = list.seen_[a], &seenB = list.seen_[b];
+        if (seenA.box.centre.z != seenB.box.centre.z) return seenA.box.centre.z < seenB.box.centre.z;
+        return seenA.item < seenB.item;
     });
     if (list.seen_.empty()) return;
     const auto fill = [](Buffer& buffer, const auto& data, const char* label) {
@@ -323,21 +335,31 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
 // What is near hides the rest before it is shaded; within what one call draws, and call by call. Blended surfaces stay
 // last.
 void GpuScene::sortFrontToBack(DrawList& list) const {
-    const auto stateOf = [&](const DrawList::Seen& seen) { return items_[seen.item].state; };
-    std::vector<double> nearest(items_.size());  // of the items of equal state
-    for (auto from = list.seen_.begin(); from != list.seen_.end();) {
-        const State state = stateOf(*from);
-        double distance = -from->box.centre.z;
-        auto to = from;
-        for (; to != list.seen_.end() && stateOf(*to) == state; ++to) distance = std::min(distance, -to->box.centre.z);
-        for (; from != to; ++from) nearest[from->item] = distance;
+    // Of the items of equal state; poses change which these are.
+    std::map<State, double> nearest;
+    for (const DrawList::Seen& seen : list.seen_) {
+        const double distance = -seen.box.centre.z;
+        const auto [entry, first] = nearest.emplace(items_[seen.item].state, distance);
+        if (!first) entry->second = std::min(entry->second, distance);
     }
-    std::stable_sort(list.seen_.begin(), list.seen_.end(), [&](const DrawList::Seen& a, const DrawList::Seen& b) {
-        const State stateA = stateOf(a), stateB = stateOf(b);
-        if (stateA.blended != stateB.blended) return stateB.blended;
-        if (stateA == stateB) return a.box.centre.z > b.box.centre.z;
-        return nearest[a.item] != nearest[b.item] ? nearest[a.item] < nearest[b.item] : stateA < stateB;
-    });
+    struct Place {
+        bool blended;
+        double call;  // the nearest of its call
+        State state;
+        double distance;
+        std::uint32_t item;
+
+        auto operator<=>(const Place&) const = default;
+    };
+    const auto place = [&](const DrawList::Seen& seen) {
+        const State& state = items_[seen.item].state;
+        return Place{state.blended, nearest.at(state), state, -seen.box.centre.z, seen.item};
+    };
+    std::vector<std::pair<Place, DrawList::Seen>> sorted;
+    sorted.reserve(list.seen_.size());
+    for (const DrawList::Seen& seen : list.seen_) sorted.emplace_back(place(seen), seen);
+    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return (a.first <=> b.first) < 0; });
+    std::transform(sorted.begin(), sorted.end(), list.seen_.begin(), [](const auto& entry) { return entry.second; });
 }
 
 void GpuScene::arrange(DrawList& list, int matrices, std::span<const std::int8_t> levels) const {

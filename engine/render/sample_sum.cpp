@@ -46,8 +46,8 @@ void SampleSum::begin(const EyeFrame& frame) {
             mean_ = FullscreenPass("common/mean.frag.glsl");
         }
     }
-    const Key key{&frame.scene,  frame.view,        frame.lens,       frame.exposure,
-                  frame.samples, frame.firstSample, frame.subsamples, frame.scene.version()};
+    const Key key{&frame.scene,      frame.view,       frame.lens, frame.exposure,       frame.samples,
+                  frame.firstSample, frame.subsamples, frame.show, frame.scene.version()};
     if (frame.budgetMilliseconds > 0.0 && key == key_ && !resized) return;
     key_ = key;
     drawn_ = 0;

@@ -57,6 +57,7 @@ class SampleSum {
         Lens lens;
         float exposure = 0.0f;
         int samples = 1, firstSample = 0, subsamples = 0;
+        ShowStage show;
         std::uint64_t version = 0;  // of the scene
 
         bool operator==(const Key&) const = default;

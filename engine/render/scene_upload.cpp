@@ -163,8 +163,8 @@ gpu::MaterialData materialData(const Material& m) {
     gpu::MaterialData data{};
     data.baseColor = m.baseColor;
     data.emissive = glm::vec4(m.emissive, m.normalScale);
-    data.surface = glm::vec4(m.metallic, m.roughness, m.alphaMode == AlphaMode::blend ? kMostOfTheLight : m.alphaCutoff,
-                             m.normalTexture.used() ? 1.0f : 0.0f);
+    data.surface =
+        glm::vec4(m.metallic, m.roughness, m.alphaMode == AlphaMode::blend ? kMostOfTheLight : m.alphaCutoff, 0.0f);
     data.light = glm::vec4(m.occlusionStrength, 0.0f, 0.0f, 0.0f);
     const auto slots = textureSlots(m);
     for (std::size_t i = 0; i < slots.size(); ++i) {

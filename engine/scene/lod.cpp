@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -87,6 +88,7 @@ class LodBuilder::State {
     std::atomic<bool> stop_{false}, unwritable_{false};
 
     mutable std::mutex mutex_;  // of what follows
+    std::mutex writing_;
     mutable std::condition_variable allDone_;
     std::map<std::string, Chain> chains_;
     std::vector<BuiltLevel> ready_;
@@ -108,7 +110,15 @@ LodBuilder::State::State(const Scene& scene, const LodOptions& options)
         options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
     const std::size_t count = std::min(wanted, jobs_.size());
     running_ = count;
-    for (std::size_t t = 0; t < count; ++t) threads_.emplace_back([this] { work(); });
+    threads_.reserve(count);
+    try {
+        for (std::size_t t = 0; t < count; ++t) threads_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+        // As many as there are do it, too.
+        const std::lock_guard lock(mutex_);
+        running_ -= count - threads_.size();
+        if (threads_.empty()) throw;
+    }
 }
 
 LodBuilder::State::~State() {
@@ -120,9 +130,9 @@ void LodBuilder::State::work() {
     for (std::size_t i = next_++; i < jobs_.size() && !stop_; i = next_++) {
         try {
             build(jobs_[i]);
-        } catch (const std::bad_alloc&) {
-            logWarning(fmt::format("{}: out of memory, it has no levels of detail beyond those that are made",
-                                   quote(scene_.meshes[jobs_[i].mesh].name)));
+        } catch (const std::exception& failure) {
+            logWarning(fmt::format("{}: {}; it has no levels of detail beyond those that are made",
+                                   quote(scene_.meshes[jobs_[i].mesh].name), failure.what()));
         }
     }
     const std::lock_guard lock(mutex_);
@@ -198,6 +208,8 @@ bool LodBuilder::State::readInto(Chain& chain, const fs::path& file, const Primi
 }
 
 void LodBuilder::State::write(const fs::path& file, const std::string& bytes) {
+    // One at a time: only one unfinished file is removed when a signal ends the program.
+    const std::lock_guard lock(writing_);
     std::error_code ignored;
     fs::create_directories(folder_, ignored);
     try {
@@ -224,13 +236,14 @@ double LodBuilder::progress() const {
     return state_->progress();
 }
 
-std::vector<BuiltLevel> buildLevels(const Scene& scene, const LodOptions& options) {
+std::vector<BuiltLevel> buildLevels(const Scene& scene, const LodOptions& options,
+                                    const std::function<bool()>& stopped) {
     constexpr auto kStep = std::chrono::milliseconds(20);
     constexpr int kQuietSteps = 10;
     constexpr std::size_t kPercent = 100;
     LodBuilder builder(scene, options);
     std::optional<ProgressLine> line;
-    for (int steps = 0; !builder.finished(); ++steps) {
+    for (int steps = 0; !builder.finished() && !stopped(); ++steps) {
         std::this_thread::sleep_for(kStep);
         if (steps < kQuietSteps) continue;
         if (!line) line.emplace("making levels of detail, percent", kPercent);

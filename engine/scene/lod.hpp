@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,13 +31,14 @@ bool hasLods(const Primitive& primitive);
 /// Where the program keeps them: lods/ in its cache folder; empty where there is none.
 std::filesystem::path lodFolder();
 
-/// Threads work on one primitive each, the largest first; equal primitives are made once. A cache that is broken is made anew, one that
-/// cannot be written is done without, each with a warning.
+/// Threads work on one primitive each, the largest first; equal primitives are made once. A file of the cache that is
+/// broken is made anew, a cache that cannot be written is done without, each with a warning. Files of meshes that are no
+/// longer there stay.
 class LodBuilder {
   public:
     /// Starts at once. The scene must keep its vertices and indices until finished(), or longer than the builder.
     LodBuilder(const Scene& scene, const LodOptions& options);
-    ~LodBuilder();  // gives up what is unfinished, within a tenth of a second
+    ~LodBuilder();  // gives up what is unfinished, soon: it asks itself every few thousand triangles
     LodBuilder(const LodBuilder&) = delete;
     LodBuilder& operator=(const LodBuilder&) = delete;
 
@@ -52,7 +54,8 @@ class LodBuilder {
     std::unique_ptr<State> state_;
 };
 
-/// All of them at once; shows progress where that takes a while.
-std::vector<BuiltLevel> buildLevels(const Scene& scene, const LodOptions& options);
+/// All of them at once, or those there are once `stopped`; shows progress where it takes a while.
+std::vector<BuiltLevel> buildLevels(
+    const Scene& scene, const LodOptions& options, const std::function<bool()>& stopped = [] { return false; });
 
 }  // namespace dioptre

@@ -32,6 +32,7 @@ struct LevelHeader {
     std::uint64_t indices;
     float error, seconds;
 };
+static_assert(sizeof(Header) == 32 && sizeof(LevelHeader) == 16);  // no gaps: they are written as they are
 
 std::uint64_t checksumOf(std::string_view bytes) {
     ContentHash hash;
@@ -41,7 +42,6 @@ std::uint64_t checksumOf(std::string_view bytes) {
 
 template <class T>
 void append(std::string& bytes, const T& value) {
-    static_assert(std::has_unique_object_representations_v<T> || sizeof(T) % 4 == 0);
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
@@ -118,7 +118,8 @@ std::string lodBytes(const Primitive& primitive, std::span<const LodLevel> level
 std::optional<std::vector<LodLevel>> readLods(const fs::path& file, const Primitive& primitive) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return std::nullopt;
-    // All levels together are at most the halves of the halves
+    // Each level has fewer than the one before, and none more than three of four of its triangles: at most three times the
+    // source
     const std::size_t most = primitive.indices.size() * 4 * sizeof(std::uint32_t) + 65536;
     const std::string bytes = readFile(file, most);
     Reader whole(file, bytes);

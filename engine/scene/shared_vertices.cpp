@@ -1,7 +1,10 @@
 #include "scene/shared_vertices.hpp"
 
+#include <bit>
 #include <functional>
 #include <unordered_map>
+
+#include "core/hash_seed.hpp"
 
 namespace dioptre {
 
@@ -11,9 +14,9 @@ constexpr std::size_t kFew = 256;  // primitives, of which all can be compared w
 
 struct PlaceHash {
     std::size_t operator()(const glm::vec3& p) const {
-        std::size_t hash = 0;
-        for (int k = 0; k < 3; ++k) hash = (hash ^ std::hash<float>()(p[k])) * 0x9e3779b97f4a7c15ULL;
-        return hash ^ hash >> 29;
+        std::uint64_t hash = hashSeed();
+        for (int k = 0; k < 3; ++k) hash = (hash ^ std::bit_cast<std::uint32_t>(p[k])) * 0x9e3779b97f4a7c15ULL;
+        return static_cast<std::size_t>(hash ^ hash >> 29);
     }
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/hash_seed.hpp"
+
 namespace dioptre {
 
 namespace {
@@ -54,7 +56,7 @@ std::vector<std::uint32_t> findWedges(const Primitive& primitive) {
     const auto& extras = primitive.extras;
     static_assert(sizeof(Vertex) == 12 * sizeof(float) && sizeof(VertexExtra) == 16);  // no gaps
     const auto hash = [&](std::uint32_t i) {
-        return extras.empty() ? hashOf(v[i], 1) : hashOf(extras[i], hashOf(v[i], 1));
+        return extras.empty() ? hashOf(v[i], hashSeed()) : hashOf(extras[i], hashOf(v[i], hashSeed()));
     };
     const auto equal = [&](std::uint32_t a, std::uint32_t b) {
         return wordsOf(v[a]) == wordsOf(v[b]) && (extras.empty() || wordsOf(extras[a]) == wordsOf(extras[b]));
@@ -64,7 +66,7 @@ std::vector<std::uint32_t> findWedges(const Primitive& primitive) {
 
 std::vector<std::uint32_t> findPlaces(const Primitive& primitive) {
     const auto& v = primitive.vertices;
-    const auto hash = [&](std::uint32_t i) { return hashOf(v[i].position + 0.0f, 1); };  // -0 is 0
+    const auto hash = [&](std::uint32_t i) { return hashOf(v[i].position + 0.0f, hashSeed()); };  // -0 is 0
     const auto equal = [&](std::uint32_t a, std::uint32_t b) { return v[a].position == v[b].position; };
     return firstEqual(primitive, hash, equal);
 }

@@ -35,7 +35,7 @@ vec3 lookup(vec2 pixel, int layer, vec2 offset, vec2 radii) {
     int steps = min(int(ceil(length)), kMostSteps);
     float stride = (radii.y - radii.x) / float(steps);
     float tolerance = max(kTolerance, 0.75 * length / float(steps)) / perRadius;
-    vec2 behind = pixel;
+    vec2 behind = pixel;  // the nearest bound is before all there is: but for rounding, the first place is behind
     for (int i = 0; i <= steps; ++i) {
         float radius = radii.x + float(i) * stride;
         vec2 at = pixel - radius * offset;

@@ -23,7 +23,7 @@ struct InstanceData {
 struct MaterialData {
     vec4 baseColor;
     vec4 emissive;  // rgb: radiance; w: normal map's scale
-    vec4 surface;   // x: metallic, y: roughness, z: alpha cut-off, w: 1 if a normal map is used
+    vec4 surface;   // x: metallic, y: roughness, z: alpha cut-off, w unused
     vec4 light;     // x: occlusion's strength
     // How each texture is read (KHR_texture_transform): uv = mat2(xy, zw) * the vertex's + xy, its second set if z is 1.
     vec4 uvLinear[kMaterialTextures];

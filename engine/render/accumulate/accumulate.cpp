@@ -83,7 +83,10 @@ void Accumulate::drawSprites(const EyeFrame& frame, int needed) {
     if (needed <= sprites_.drawn) return;
     PassScope scope(frame.log, "sprites");
     const std::span<const LensSample> parents(plan_.sharing.parents);
-    sprites_.layers.resize(frame.view.width, frame.view.height, gpu::kSpriteLayers);
+    // By steps, so that a lens that changes does not need others in each frame.
+    constexpr int kStep = 8;
+    sprites_.layers.resize(frame.view.width, frame.view.height,
+                           (static_cast<int>(parents.size()) + kStep - 1) / kStep * kStep);
     arrangedFor_ = 0;
     while (sprites_.drawn < needed) {
         const int first = sprites_.drawn, count = std::min(gpu::kMostMatrices, needed - first);
@@ -151,6 +154,7 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     const int levels = list_.seen().empty() ? 0 : std::ranges::max(list_.seen(), {}, &DrawList::Seen::levels).levels();
     const glm::mat4 clip(clipFromView(frame.view));
     PassScope scope(frame.log, "show");
+    // Blended surfaces keep their own colours.
     // The mean of the picture in the levels' colours and of these alone: what outshines all that half floats hold is cut
     // to one value.
     constexpr float kMostRadiance = 65504.0f, kOutshining = 1e30f;
@@ -192,8 +196,11 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
         makePlan(frame);
         sprites_.drawn = 0;
         if (plan_.sharing.parents.empty()) frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
-        subsamples_ = frame.subsamples > 0 ? subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample)
-                                           : Subsamples{};
+        const SubsampleKey key{frame.samples, frame.subsamples, frame.firstSample, frame.lens.blades,
+                               frame.lens.bladeRotation};
+        if (key != subsampleKey_)
+            subsamples_ = subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample);
+        subsampleKey_ = key;
     }
     while (sum_.drawn() < frame.samples) {
         drawGroup(frame, std::min(layers, frame.samples - sum_.drawn()));

@@ -8,7 +8,7 @@
 //   sprites that samples begin with. [JKLL13] groups the samples for each object, and copies each; here all objects up
 //   to one CoC share one grouping, so that thousands take one copy. Blended surfaces are drawn for each sample;
 // - each picture serves some more points of the lens around its own (subsample_blur.hpp).
-// With one level of detail for all, nothing shared and no sub-samples it is the reference, to the bit.
+// With level 0 for all, nothing shared and no sub-samples it is the reference, to the bit.
 //
 // Samples come in groups of as many as one submission of the geometry can draw; memory does not grow with their number.
 // Each has its own sub-pixel jitter (of shared renderings, at least eight), so edges are antialiased and msaa is not
@@ -54,7 +54,14 @@ class Accumulate final : public Technique {
     std::vector<std::int8_t> arranged_;  // levels that the list is arranged for
     int arrangedFor_ = 0;                // matrices
     Plan plan_;
+    struct SubsampleKey {
+        int samples = 0, each = 0, first = 0, blades = 0;
+        Radians bladeRotation{0.0};
+
+        bool operator==(const SubsampleKey&) const = default;
+    };
     Subsamples subsamples_;
+    SubsampleKey subsampleKey_;  // what they are of
     SampleLayers layers_{"lens samples"};
     struct {
         SampleLayers layers{"shared renderings"};

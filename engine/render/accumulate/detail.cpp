@@ -10,9 +10,12 @@ namespace dioptre {
 CocExtent cocExtent(const View& view, const Lens& lens, const ViewBox& box) {
     const double near = std::max(view.near.value, box.nearest());
     const double far = std::max(near, box.farthest());
-    const double f = focalLengthPixels(view).x;
-    const double a = cocRadiusPixels(lens, f, Dioptres(1.0 / near)), b = cocRadiusPixels(lens, f, Dioptres(1.0 / far));
-    return {a <= 0.0 && b >= 0.0 ? 0.0 : std::min(std::abs(a), std::abs(b)), std::max(std::abs(a), std::abs(b))};
+    const glm::dvec2 f = focalLengthPixels(view);
+    const double less = std::min(f.x, f.y), more = std::max(f.x, f.y);
+    const auto radius = [&](double pixels, double d) { return cocRadiusPixels(lens, pixels, Dioptres(1.0 / d)); };
+    const bool focusWithin = radius(less, near) <= 0.0 && radius(less, far) >= 0.0;
+    return {focusWithin ? 0.0 : std::min(std::abs(radius(less, near)), std::abs(radius(less, far))),
+            std::max(std::abs(radius(more, near)), std::abs(radius(more, far)))};
 }
 
 double sphereArea(const View& view, const ViewBox& box) {

@@ -11,7 +11,8 @@
 
 namespace dioptre {
 
-/// The CoC RADII, without their sign, that a box can have; pixels along x.
+/// The CoC RADII, without their sign, that a box can have; pixels, the smallest along the axis with fewer, the largest
+/// along the other.
 struct CocExtent {
     double smallest = 0.0, largest = 0.0;
 };

@@ -5,9 +5,10 @@
 // Seen from v, a point with signed CoC radius c (optics/lens.hpp) is c v away from where the middle of the lens sees it.
 // So what v + o sees at pixel p, v sees at p - c o: on a line whose every place belongs to one c. The first place, from
 // the near end, whose picture has the c that belongs to it is what v + o sees: a ray cast against the one layer of
-// depths that v sees. No place has it where v sees nothing of what v + o does: there it is taken from the last place
-// whose picture lies behind the ray, since what is hidden continues what lies behind; without such a place ("blocked")
-// from p itself. A place that nothing covers has depth 0, which is a c like any other: the background.
+// depths that v sees. No place has it where v sees nothing of what v + o does. There [JKLL13] takes p itself where a
+// surface bounds the line ("blocked"), the background where none does. Here both are one: the last place whose picture
+// lies behind the ray, since what is hidden continues what lies behind it (SSIM 0.980 for 0.978 with p itself). A place
+// that nothing covers has depth 0, which is a c like any other: the background.
 //
 // The line is as short as the CoC radii that can be met allow. They are bounded for tiles of pixels: by those of the
 // whole picture, then, a few times, by the least and greatest depth in the square of tiles that the former bounds can
