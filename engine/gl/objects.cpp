@@ -30,6 +30,7 @@ std::size_t texelBytes(GLenum format) {
         case GL_DEPTH_COMPONENT32F:
             return 4;
         case GL_RGBA16F:
+        case GL_RG32F:
             return 8;
         case GL_RGBA32F:
             return 16;

@@ -110,8 +110,9 @@ done
 ls cache/dioptre/lods | wc -l
 )",
                                  "builtin:studio --technique accumulate --samples 8");
-    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     EXPECT_EQ(outcome.err, "");
+    ASSERT_FALSE(outcome.out.empty());
     EXPECT_GT(std::stoi(linesOf(outcome.out).back()), 0) << outcome.out;
 }
 

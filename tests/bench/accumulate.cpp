@@ -141,8 +141,8 @@ void compare(const std::string& name, const Options& options) {
             for (const auto& [stage, time] : drawn.stages) stages += fmt::format("{} {:.0f} ", stage, time);
             fmt::print("| {} | {} | {:.4f} | {:.2f} | {:.0f} | {:.0f} % | {:.0f} | {:.2f} | {}|\n", n, s, error.ssim,
                        error.psnr, drawn.milliseconds,
-                       100.0 * static_cast<double>(drawn.triangles) / static_cast<double>(trianglesOfSample * n), same,
-                       same / drawn.milliseconds, stages);
+                       100.0 * static_cast<double>(drawn.triangles) / (static_cast<double>(trianglesOfSample) * n),
+                       same, same / drawn.milliseconds, stages);
             std::fflush(stdout);
         }
 }

@@ -143,7 +143,7 @@ TEST_F(HygieneGLTest, ObjectsDoNotPileUpOverStagesShown) {
     for (const auto& [choice, stages] :
          {std::pair(TechniqueChoice::mipmap, ofMipmap), {TechniqueChoice::accumulate, ofAccumulate}}) {
         const auto technique = makeTechnique(choice);
-        const auto frames = [&](std::size_t count) {
+        const auto frames = [&, &stages = stages](std::size_t count) {
             for (std::size_t i = 0; i < count; ++i) {
                 Shot shot = aShot(64 + 16 * static_cast<int>(i % 5), 64, 0);
                 shot.show.stage = stages[i % stages.size()];
