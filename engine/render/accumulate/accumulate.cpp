@@ -131,6 +131,7 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
         layers_.bind(!shares);
         if (shares) beginWithSprites(first, count);
         std::vector<LensSample> samples;
+        samples.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i) samples.push_back(lensSample(frame.firstSample + first + i, frame.lens));
         frame.scene.drawThroughLens(list_, clipsOf(frame, samples), frame.exposure, textureLodBias(frame.samples));
     }

@@ -87,6 +87,7 @@ void SubsampleBlur::add(const Group& group, const Subsamples& subsamples, Sample
     for (int i = 0; i <= group.count; ++i)
         firstOffset[static_cast<std::size_t>(i)] = std::min(first[i] - first[0], gpu::kMostOffsets);
     const int count = firstOffset[static_cast<std::size_t>(group.count)];
+    offsets.reserve(static_cast<std::size_t>(std::max(1, count)));
     for (int i = 0; i < count; ++i)
         offsets.push_back(subsamples.offsets[static_cast<std::size_t>(first[0] + i)] *
                           glm::vec2(1.0f, static_cast<float>(group.stretch)));
