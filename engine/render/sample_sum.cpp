@@ -1,5 +1,6 @@
 #include "render/sample_sum.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dioptre {
@@ -32,6 +33,7 @@ void SampleLayers::clear(int first, int count) const {
 }
 
 void SampleSum::begin(const EyeFrame& frame) {
+    start_ = nowMilliseconds();
     const auto& [width, height] = std::pair(frame.view.width, frame.view.height);
     const bool resized = !sum_ || sum_.width() != width || sum_.height() != height;
     if (resized) {
@@ -54,6 +56,15 @@ void SampleSum::begin(const EyeFrame& frame) {
     weight_ = 0.0;
     const float zero[] = {0.0f, 0.0f, 0.0f, 0.0f};
     glClearNamedFramebufferfv(sumTarget_.name(), GL_COLOR, 0, zero);
+}
+
+void SampleSum::refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw) {
+    while (drawn_ < frame.samples) {
+        draw(std::min(most, frame.samples - drawn_));
+        if (frame.budgetMilliseconds <= 0.0) continue;
+        glFinish();
+        if (nowMilliseconds() - start_ >= frame.budgetMilliseconds) break;
+    }
 }
 
 void SampleSum::add(const SampleLayers& layers, int count) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "gl/objects.hpp"
@@ -36,6 +37,9 @@ class SampleSum {
     /// Ready for more samples of `frame`: those of former frames are kept where it has a budget and nothing else that
     /// the picture depends on is new.
     void begin(const EyeFrame& frame);
+    /// Calls `draw` with the number of samples, at most `most`, that it is to draw and add next, until there are as many
+    /// as the frame asks for or, since begin(), its budget is spent.
+    void refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw);
     /// Of the samples asked for; counts those that add() and addDrawn() were told of.
     int drawn() const { return drawn_; }
     double progress() const { return static_cast<double>(drawn_) / key_.samples; }
@@ -64,6 +68,7 @@ class SampleSum {
     };
 
     Key key_;
+    double start_ = 0.0;
     int drawn_ = 0;
     double weight_ = 0.0;
     Texture sum_, output_;

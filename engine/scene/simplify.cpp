@@ -1,6 +1,6 @@
 // Garland, Heckbert 1997, "Surface simplification using quadric error metrics": a vertex's quadric is the sum of its
 // faces' squared distances from a point, each times the face's area; moving v0 onto v1 costs Q0(v1) + Q1(v1).
-// Jeong, Lee, Kwon, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur": a chain of levels,
+// Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur": a chain of levels,
 // each with half the triangles of the one before.
 //
 // The one place that names OpenMesh: connectivity, the test that a collapse keeps a surface a surface, and quadrics are

@@ -7,7 +7,6 @@ namespace dioptre::gpu {
 const int kTileSide = 4;            // pixels of a tile whose depths are bounded together
 const int kNBufferLevels = 6;       // squares of 1 ... 32 tiles
 const int kMostOffsets = 192;       // sub-samples of one pass
-const int kSpriteLayers = 24;       // renderings that samples share, at most
 const int kReduction = 4;           // tiles a side that a step of the reduction to the whole picture's bounds joins
 
 #ifdef __cplusplus

@@ -17,6 +17,7 @@ namespace {
 constexpr int kGrid = 2;
 // Below that share of the samples, renderings that they share are worth their copies.
 constexpr double kWorthSharing = 0.5;
+constexpr int kMostSprites = 24;  // 12 bytes a pixel each
 // Beyond that CoC radius, px, more cells are taken than there are sprites, however many samples.
 constexpr double kMostSharedRadius = 2.0;
 
@@ -62,7 +63,7 @@ void Accumulate::makePlan(const EyeFrame& frame) {
     std::sort(candidates.begin(), candidates.end(), std::greater<>());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     const std::vector<LensSample> samples = samplesOf(frame);
-    const auto most = std::min(kWorthSharing * frame.samples, double{gpu::kSpriteLayers});
+    const auto most = std::min(kWorthSharing * frame.samples, double{kMostSprites});
     const auto found = std::partition_point(candidates.begin(), candidates.end(), [&](double radius) {
         return static_cast<double>(shareRenderings(samples, radius, kGrid).parents.size()) > most;
     });
@@ -185,7 +186,6 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
         geometry_.draw(frame.scene, frame.view, frame.exposure, 0, frame.log);
         return show_.draw(frame, geometry_.depth());
     }
-    const double start = nowMilliseconds();
     const int layers = GpuScene::mostMatrices();
     layers_.resize(frame.view.width, frame.view.height, layers);
     sum_.begin(frame);
@@ -203,12 +203,7 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
             subsamples_ = subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample);
         subsampleKey_ = key;
     }
-    while (sum_.drawn() < frame.samples) {
-        drawGroup(frame, std::min(layers, frame.samples - sum_.drawn()));
-        if (frame.budgetMilliseconds <= 0.0) continue;
-        glFinish();
-        if (nowMilliseconds() - start >= frame.budgetMilliseconds) break;
-    }
+    sum_.refine(frame, layers, [&](int count) { drawGroup(frame, count); });
     PassScope scope(frame.log, "average");
     return sum_.mean();
 }

@@ -1,5 +1,5 @@
 // LOD-accelerated accumulation: the accurate end of what is drawn in real time.
-// [JKLL13] Jeong, Kim, Lee, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur"; and
+// [JKLL13] Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur"; and
 // Jeong's dissertation, ch. 3.
 //
 // The mean of N pictures through points of the lens, as the reference's, made cheaper in three ways:
@@ -11,7 +11,7 @@
 // With level 0 for all, nothing shared and no sub-samples it is the reference, to the bit.
 //
 // Samples come in groups of as many as one submission of the geometry can draw; memory does not grow with their number.
-// Each has its own sub-pixel jitter (of shared renderings, at least eight), so edges are antialiased and msaa is not
+// Each has its own sub-pixel jitter (of shared renderings: sharing.hpp), so edges are antialiased and msaa is not
 // used.
 #pragma once
 

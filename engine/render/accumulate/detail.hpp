@@ -1,5 +1,5 @@
 // How much detail an object needs through a lens, and how blurred it can be. Arithmetic, no GL.
-// [JKLL13] Jeong, Kim, Lee, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur".
+// [JKLL13] Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur".
 #pragma once
 
 #include <glm/glm.hpp>
@@ -30,7 +30,8 @@ double detailLevel(double cocArea, double triangleArea, int mostLevel);
 double levelOfError(std::span<const float> errors, double allowed);
 
 /// A level's error (scene/simplify.hpp) may be that share of the CoC radius: simpler surfaces shrink and are shaded
-/// otherwise, which blur does not hide. SSIM at N = 32, S = 4, equal-quality speed-up and triangles left, 512x384:
+/// otherwise, which blur does not hide. With other values here, `bench_accumulate toys --quick --reference 384 --size
+/// 512x384 --diameter 12` (fishes: 256) gave SSIM at N = 32, S = 4, equal-quality speed-up and triangles left:
 /// toys 0.980, 4.0, 56 % with 0.03; 0.977, 3.4, 40 % with 0.1; 0.968, 2.7, 30 % with 0.3; 0.974, 2.0, 33 % without
 /// (1024x768). Fishes 0.965, 4.3, 49 % with 0.03; 0.956, 3.7, 29 % with 0.1.
 inline constexpr double kErrorOfBlur = 0.04;
@@ -41,7 +42,7 @@ inline constexpr double kErrorOfBlur = 0.04;
 /// eyes see the same level.
 double detailLevel(const View& view, const Lens& lens, const DrawList::Seen& seen);
 
-/// The level of one of `count` samples: the first (1 - fraction) of them take the one below. Both parts of the Halton
+/// The level of one of `count` samples: the first (1 - fraction) of them take the finer one. Both parts of the Halton
 /// sequence cover the lens about evenly, so that a level comes and goes without a jump.
 int levelOfSample(double level, int sample, int count);
 

@@ -1,5 +1,5 @@
 // Sub-sample blur: what points of the lens near a primary sample's see, looked up in that sample's picture.
-// [JKLL13] Jeong, Kim, Lee, Lee 2013, "Real-time defocus rendering with level of detail and sub-sample blur";
+// [JKLL13] Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur";
 // [LES09] Lee, Eisemann, Seidel 2009, "Depth-of-field rendering with multiview synthesis"; Decoret 2005, "N-buffers".
 //
 // Seen from v, a point with signed CoC radius c (optics/lens.hpp) is c v away from where the middle of the lens sees it.

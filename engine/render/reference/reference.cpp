@@ -1,6 +1,5 @@
 #include "render/reference/reference.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "optics/lens_samples.hpp"
@@ -27,7 +26,6 @@ const Texture& Reference::draw(const EyeFrame& frame) {
         geometry_.draw(frame.scene, frame.view, frame.exposure, 0, frame.log);
         return show_.draw(frame, geometry_.depth());
     }
-    const double start = nowMilliseconds();
     const int layers = GpuScene::mostMatrices();
     layers_.resize(frame.view.width, frame.view.height, layers);
     sum_.begin(frame);
@@ -37,12 +35,7 @@ const Texture& Reference::draw(const EyeFrame& frame) {
     }
     {
         PassScope scope(frame.log, "samples");
-        while (sum_.drawn() < frame.samples) {
-            addBatch(frame, std::min(layers, frame.samples - sum_.drawn()));
-            if (frame.budgetMilliseconds <= 0.0) continue;
-            glFinish();
-            if (nowMilliseconds() - start >= frame.budgetMilliseconds) break;
-        }
+        sum_.refine(frame, layers, [&](int count) { addBatch(frame, count); });
     }
     PassScope scope(frame.log, "average");
     return sum_.mean();
