@@ -1,6 +1,7 @@
 #include "interrupt.hpp"
 
 #include <csignal>
+#include <ctime>
 
 #include "core/file.hpp"
 
@@ -9,12 +10,26 @@ namespace dioptre {
 namespace {
 
 volatile std::sig_atomic_t watched = 0, caught = 0;
+timespec caughtAt{};
+
+// timeout(1) and others signal the process and then its group: the same wish twice.
+constexpr double kSameWishSeconds = 0.1;
+
+bool repeatsItself() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<double>(now.tv_sec - caughtAt.tv_sec) +
+               static_cast<double>(now.tv_nsec - caughtAt.tv_nsec) * 1e-9 <
+           kSameWishSeconds;
+}
 
 void onSignal(int signal) {
     if (watched && !caught) {
+        ::clock_gettime(CLOCK_MONOTONIC, &caughtAt);
         caught = 1;
         return;
     }
+    if (caught && repeatsItself()) return;
     removeUnfinishedFile();
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // comes when this handler has returned

@@ -131,12 +131,19 @@ TEST_F(MeasureTest, ResumingAddsWhatIsMissing) {
 }
 
 TEST_F(MeasureTest, StoppingKeepsWhatIsFinished) {
-    const Outcome stopped =
-        runProgram("timeout", {"--preserve-status", "--signal=INT", "4", DIOPTRE_PROGRAM, "measure", "scene.gltf",
-                               "--out", "trade", "--size", "800x600", "--samples", "2000"});
+    // Signalled when the first row is written, as timeout(1) does it: the process, then its group.
+    const Outcome stopped = runProgram("sh", {"-c", R"(
+"$0" measure scene.gltf --out trade --size 320x240 --samples 300 &
+until [ -s trade/trade.json ]; do kill -0 $! || exit 90; sleep 0.02; done
+kill -TERM $!
+kill -TERM $!
+wait $!
+)",
+                                              DIOPTRE_PROGRAM});
     EXPECT_EQ(stopped.status, 1) << stopped.err;
     EXPECT_THAT(stopped.err, HasSubstr("--resume"));
-    EXPECT_LT(table().at("rows").size(), 54u);
+    EXPECT_GE(table().at("rows").size(), 1u);
+    EXPECT_LT(table().at("rows").size(), kRows);
     EXPECT_TRUE(there("trade/index.html"));
 }
 
