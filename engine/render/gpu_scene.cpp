@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "render/scene_upload.hpp"
 #include "scene/placement.hpp"
@@ -28,7 +27,8 @@ enum Feature : unsigned {
     kMapped = 1u << 7,
     kOcclusion = 1u << 8,
     kSurfaceMap = 1u << 9,
-    kNormalMap = 1u << 10
+    kNormalMap = 1u << 10,
+    kSpaced = 1u << 11
 };
 constexpr std::pair<Feature, const char*> kFeatureNames[] = {{kLit, "LIT"},
                                                              {kEmissive, "EMISSIVE"},
@@ -39,7 +39,8 @@ constexpr std::pair<Feature, const char*> kFeatureNames[] = {{kLit, "LIT"},
                                                              {kMapped, "MAPPED"},
                                                              {kOcclusion, "OCCLUSION"},
                                                              {kSurfaceMap, "SURFACE_MAP"},
-                                                             {kNormalMap, "NORMAL_MAP"}};
+                                                             {kNormalMap, "NORMAL_MAP"},
+                                                             {kSpaced, "SPACED"}};
 
 Program program(unsigned features) {
     std::vector<std::string> defines;
@@ -79,7 +80,6 @@ GpuScene::GpuScene(const Scene& scene)
     textures_ = uploadTextures(scene);
     uploadMaterials(scene);
     uploadGeometry(scene);
-    makePrograms();
     skyRadiance_ = scene.lights.empty() ? kSkyAlone : kSkyBesideLights;
     lights_ = scene.lights.empty() ? std::vector<Light>{keyLight()} : scene.lights;
     if (scene.motion) {
@@ -178,11 +178,8 @@ void GpuScene::uploadGeometry(const Scene& scene) {
     if (deformer_) deformer_->upload();
     // Items that share all state are drawn by one call.
     std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.state < b.state; });
-    std::vector<std::uint32_t> drawIndex(items_.size());
-    std::iota(drawIndex.begin(), drawIndex.end(), 0u);
-    drawIndices_ = Buffer(std::span<const std::uint32_t>(drawIndex), "draw indices");
-    describeVertices(vertexArray_, vertices_, indices_, drawIndices_);
-    describeVertices(extrasVertexArray_, vertices_, indices_, drawIndices_);
+    describeVertices(vertexArray_, vertices_, indices_);
+    describeVertices(extrasVertexArray_, vertices_, indices_);
     if (extras_) describeExtras(extrasVertexArray_, extras_);
 }
 
@@ -212,17 +209,13 @@ std::size_t GpuScene::bytes() const {
     return deformer_ ? sum + deformer_->bytes() : sum;
 }
 
-void GpuScene::makePrograms() {
-    for (const Item& item : items_) {
-        for (const Phase phase : {Phase::surface, Phase::blended, Phase::depth}) {
-            if (phase == Phase::blended && !item.state.blended) continue;
-            const unsigned features = featuresOf(item.state, phase);
-            if (!programs_.contains(features)) programs_.emplace(features, program(features));
-        }
-    }
+const Program& GpuScene::programFor(unsigned features) const {
+    const auto [found, missing] = programs_.try_emplace(features);
+    if (missing) found->second = program(features);
+    return found->second;
 }
 
-unsigned GpuScene::featuresOf(const State& state, Phase phase) const {
+unsigned GpuScene::featuresOf(const State& state, Phase phase, bool spaced) const {
     const BoundMaterial& m = materials_[state.material];
     const unsigned alpha = m.alphaMode == AlphaMode::opaque ? 0u : static_cast<unsigned>(kMask);
     const unsigned vertex = (state.extras ? kExtras : 0u) | (m.mapped ? kMapped : 0u);
@@ -235,7 +228,8 @@ unsigned GpuScene::featuresOf(const State& state, Phase phase) const {
         shading |=
             kLit | (m.occluded ? kOcclusion : 0u) | (m.surfaceMapped ? kSurfaceMap : 0u) | (m.bumped ? kNormalMap : 0u);
     const unsigned seen = !state.blended ? alpha : phase == Phase::blended ? kBlend : kSolid;
-    return vertex | shading | seen;
+    const unsigned reading = spaced && m.alphaMode != AlphaMode::mask ? kSpaced : 0u;
+    return vertex | shading | seen | reading;
 }
 
 VergenceRange GpuScene::vergenceRange(const View& view) const {
@@ -260,7 +254,6 @@ int GpuScene::mostMatrices() {
 void GpuScene::drawRadiance(const View& view, float exposure) const {
     see(whole_, view, nullptr);
     arrange(whole_, 1);
-    setLodBias(0.0f);
     const glm::mat4 clip(clipFromView(view));
     const Through through{{&clip, 1}, exposure};
     const std::vector<Run>& runs = whole_.runs_;
@@ -276,15 +269,13 @@ void GpuScene::drawRadiance(const View& view, float exposure) const {
 void GpuScene::drawDepth(const View& view) const {
     see(whole_, view, nullptr);
     arrange(whole_, 1);
-    setLodBias(0.0f);
     const glm::mat4 clip(clipFromView(view));
     drawRuns(whole_, whole_.runs_, Phase::depth, {{&clip, 1}});
 }
 
 void GpuScene::drawThroughLens(const DrawList& list, std::span<const glm::mat4> clipFromView, float exposure,
-                               float lodBias, int firstLayer) const {
-    setLodBias(lodBias);
-    const Through through{clipFromView, exposure, firstLayer};
+                               const TextureFilter& filter, int firstLayer) const {
+    const Through through{clipFromView, exposure, firstLayer, filter};
     drawRuns(list, list.runs_, Phase::surface, through);
     drawBlended(list, through);
 }
@@ -292,7 +283,7 @@ void GpuScene::drawThroughLens(const DrawList& list, std::span<const glm::mat4> 
 void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
     // The matrices are made eye-relative in double precision.
-    std::vector<gpu::InstanceData> instances(items_.size());
+    std::vector<glm::mat4> instances(items_.size());
     list.seen_.clear();
     list.blended_.clear();
     list.runs_.clear();
@@ -302,7 +293,7 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
         const glm::dmat4 viewFromMesh = viewFrom * item.worldFromMesh;
         const ViewBox box = boxInView(viewFromMesh, item.bounds);
         if (!mayBeSeen(view, lens, box)) continue;
-        instances[i] = {glm::mat4(viewFromMesh), glm::uvec4(item.state.material, 0, 0, 0)};
+        instances[i] = glm::mat4(viewFromMesh);
         const Levels& levels = levels_[item.primitive];
         const double scale = mostStretch(glm::dmat3(viewFromMesh));
         const bool triangles = item.state.topology == Topology::triangles;
@@ -420,15 +411,17 @@ void GpuScene::drawBlended(const DrawList& list, const Through& through) const {
 
 void GpuScene::drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const {
     if (runs.empty()) return;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list.instances_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materialBuffer_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, list.lights_.name());
+    setLodBias(through.filter.levelBias);
+    const CocTransform& spacing = through.filter.spacing;
+    const bool spaced = spacing.scale != 0.0f || spacing.bias != 0.0f;
+    for (const VertexArray* array : {&vertexArray_, &extrasVertexArray_}) bindInstances(*array, list.instances_);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list.lights_.name());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.commands_.name());
     glEnable(GL_DEPTH_TEST);
 
     const Program* current = nullptr;
     for (const Run& run : runs) {
-        const Program& program = programs_.at(featuresOf(run.state, phase));
+        const Program& program = programFor(featuresOf(run.state, phase, spaced));
         if (&program != current) {
             program.use();
             program.set("clipFromView", through.clipFromView);
@@ -436,6 +429,7 @@ void GpuScene::drawRuns(const DrawList& list, std::span<const Run> runs, Phase p
             program.set("up", glm::vec4(list.up_, skyRadiance_));
             program.set("firstLayer", through.firstLayer);
             program.set("lightCount", static_cast<int>(lights_.size()));
+            program.set("textureSpacing", glm::vec2(spacing.scale, spacing.bias));
             current = &program;
         }
         bind(run);
@@ -453,6 +447,8 @@ void GpuScene::drawRuns(const DrawList& list, std::span<const Run> runs, Phase p
 
 void GpuScene::bind(const Run& run) const {
     const BoundMaterial& material = materials_[run.state.material];
+    glBindBufferRange(GL_UNIFORM_BUFFER, 0, materialBuffer_.name(), run.state.material * sizeof(gpu::MaterialData),
+                      sizeof(gpu::MaterialData));
     glBindVertexArray(run.state.extras ? extrasVertexArray_.name() : vertexArray_.name());
     for (GLuint unit = 0; unit < gpu::kMaterialTextures; ++unit) {
         material.textures[unit].texture->bind(unit);

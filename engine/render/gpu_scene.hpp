@@ -36,6 +36,14 @@ struct VergenceRange {
     bool anything = false;
 };
 
+/// How finely textures are read.
+struct TextureFilter {
+    float levelBias = 0.0f;  // added to the level that one sample a pixel asks for
+    // How many times as coarsely what is blurred is read, by its depth; nothing where that is less than 1, and nothing
+    // where texels are holes: their shape would change.
+    CocTransform spacing = {};
+};
+
 class GpuScene {
   public:
     /// Matrices that one call can draw: 1 where the driver cannot choose a layer in the vertex stage.
@@ -68,9 +76,9 @@ class GpuScene {
     /// all at level 0), as often as a call will have matrices.
     void arrange(DrawList& list, int matrices, std::span<const std::int8_t> levels = {}) const;
     /// Exactly as many matrices as arranged for, matrix i to layer `firstLayer` + i of the bound layered framebuffer.
-    /// `lodBias` is added to the level at which textures are read. Depth is left by opaque surfaces only.
-    void drawThroughLens(const DrawList& list, std::span<const glm::mat4> clipFromView, float exposure, float lodBias,
-                         int firstLayer = 0) const;
+    /// Depth is left by opaque surfaces only.
+    void drawThroughLens(const DrawList& list, std::span<const glm::mat4> clipFromView, float exposure,
+                         const TextureFilter& filter, int firstLayer = 0) const;
 
     /// Of what `view` sees: conservative, from the pose's bounding boxes, nearest bounded by the view's near plane.
     VergenceRange vergenceRange(const View& view) const;
@@ -110,17 +118,18 @@ class GpuScene {
         std::span<const glm::mat4> clipFromView;
         float exposure = 1.0f;
         int firstLayer = 0;
+        TextureFilter filter = {};
     };
 
     void uploadGeometry(const Scene& scene);
     void uploadMaterials(const Scene& scene);
     void applyPose();
-    void makePrograms();
-    unsigned featuresOf(const State& state, Phase phase) const;
+    unsigned featuresOf(const State& state, Phase phase, bool spaced) const;
     void sortFrontToBack(DrawList& list) const;
     void append(DrawList& list, std::vector<Run>& runs, const DrawList::Seen& seen, int matrices, int level,
                 Faces faces) const;
     void setLodBias(float bias) const;
+    const Program& programFor(unsigned features) const;
     void drawBlended(const DrawList& list, const Through& through) const;
     void drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const;
     void bind(const Run& run) const;
@@ -142,12 +151,12 @@ class GpuScene {
 
     SceneTextures textures_;
     SceneSamplers samplers_;
-    Buffer vertices_, extras_, indices_, drawIndices_, materialBuffer_;
+    Buffer vertices_, extras_, indices_, materialBuffer_;
     mutable std::uint64_t trianglesDrawn_ = 0;
     mutable float lodBias_ = 0.0f;  // that the samplers have
     mutable DrawList whole_;        // of drawRadiance and drawDepth
     VertexArray vertexArray_, extrasVertexArray_;
-    std::map<unsigned, Program> programs_;  // by features
+    mutable std::map<unsigned, Program> programs_;  // by features; made when first needed
 };
 
 }  // namespace dioptre

@@ -233,11 +233,9 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
     return all;
 }
 
-void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices,
-                      const Buffer& drawIndices) {
+void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices) {
     const GLuint vao = array.name();
     glVertexArrayVertexBuffer(vao, 0, vertices.name(), 0, sizeof(Vertex));
-    glVertexArrayVertexBuffer(vao, 1, drawIndices.name(), 0, sizeof(std::uint32_t));
     // Read at a draw's base instance, whatever the instance: matrices are drawn as instances.
     glVertexArrayBindingDivisor(vao, 1, gpu::kMostMatrices);
     glVertexArrayElementBuffer(vao, indices.name());
@@ -255,17 +253,23 @@ void describeVertices(const VertexArray& array, const Buffer& vertices, const Bu
                                   static_cast<GLuint>(attributes[i].offset));
         glVertexArrayAttribBinding(vao, i, 0);
     }
-    glEnableVertexArrayAttrib(vao, 4);
-    glVertexArrayAttribIFormat(vao, 4, 1, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribBinding(vao, 4, 1);
+    for (GLuint column = 0; column < 4; ++column) {
+        glEnableVertexArrayAttrib(vao, 4 + column);
+        glVertexArrayAttribFormat(vao, 4 + column, 4, GL_FLOAT, GL_FALSE, column * sizeof(glm::vec4));
+        glVertexArrayAttribBinding(vao, 4 + column, 1);
+    }
+}
+
+void bindInstances(const VertexArray& array, const Buffer& matrices) {
+    glVertexArrayVertexBuffer(array.name(), 1, matrices.name(), 0, sizeof(glm::mat4));
 }
 
 void describeExtras(const VertexArray& array, const Buffer& extras) {
     const GLuint vao = array.name();
     glVertexArrayVertexBuffer(vao, 2, extras.name(), 0, sizeof(VertexExtra));
-    glVertexArrayAttribFormat(vao, 5, 2, GL_FLOAT, GL_FALSE, offsetof(VertexExtra, uv));
-    glVertexArrayAttribFormat(vao, 6, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(VertexExtra, color));
-    for (const GLuint attribute : {5u, 6u}) {
+    glVertexArrayAttribFormat(vao, 8, 2, GL_FLOAT, GL_FALSE, offsetof(VertexExtra, uv));
+    glVertexArrayAttribFormat(vao, 9, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(VertexExtra, color));
+    for (const GLuint attribute : {8u, 9u}) {
         glEnableVertexArrayAttrib(vao, attribute);
         glVertexArrayAttribBinding(vao, attribute, 2);
     }

@@ -51,8 +51,9 @@ struct UploadedGeometry {
 };
 /// Primitive by primitive into buffers of the total size: there is no second copy of the scene in memory.
 UploadedGeometry uploadMeshes(const Scene& scene);
-void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices,
-                      const Buffer& drawIndices);
+void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices);
+/// A matrix (viewFromMesh) for each item, in order: what a draw reads at its base instance.
+void bindInstances(const VertexArray& array, const Buffer& matrices);
 /// Adds them to an array described before.
 void describeExtras(const VertexArray& array, const Buffer& extras);
 

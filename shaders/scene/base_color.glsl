@@ -7,9 +7,20 @@
 // Texels of a blended surface this opaque hide what is behind them: half a step of 8 bits below 1.
 const float kSolidAlpha = 0.998;
 
-layout(std430, binding = 1) readonly buffer Materials { MaterialData materials[]; };
+layout(std140, binding = 0) uniform Material { MaterialData material; };
 
 layout(binding = 0) uniform sampler2D baseColorTexture;
+
+#ifdef SPACED
+// By depth: how many times as coarsely as the sampler says what is blurred is read, where that is more than 1.
+uniform vec2 textureSpacing;
+
+vec4 readTexture(sampler2D t, vec2 uv) {
+    return texture(t, uv, log2(max(1.0, abs(textureSpacing.x * gl_FragCoord.z + textureSpacing.y))));
+}
+#else
+vec4 readTexture(sampler2D t, vec2 uv) { return texture(t, uv); }
+#endif
 
 /// Where one of the material's textures is read.
 vec2 uvOf(int slot) {
@@ -20,13 +31,13 @@ vec2 uvOf(int slot) {
 #endif
 }
 
-vec4 baseColorOf(MaterialData m) {
-    vec4 color = m.baseColor * texture(baseColorTexture, uvOf(kBaseColor));
+vec4 baseColorOf() {
+    vec4 color = material.baseColor * readTexture(baseColorTexture, uvOf(kBaseColor));
 #ifdef EXTRAS
     color *= surface.color;
 #endif
 #ifdef MASK
-    if (color.a < m.surface.z) discard;
+    if (color.a < material.surface.z) discard;
 #endif
 #ifdef SOLID
     if (color.a < kSolidAlpha) discard;

@@ -2,7 +2,7 @@
 #ifdef MASK
 #include "scene/base_color.glsl"
 
-void main() { baseColorOf(materials[material]); }
+void main() { baseColorOf(); }
 #else
 void main() {}
 #endif

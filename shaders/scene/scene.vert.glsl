@@ -8,15 +8,15 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
-layout(location = 4) in uint drawIndex;  // one per draw, by the base instance
+// One per draw, by the base instance; eye-relative, so that a scene far from the origin keeps its digits
+layout(location = 4) in mat4 viewFromMesh;
 #ifdef EXTRAS
-layout(location = 5) in vec2 uv1;
-layout(location = 6) in vec4 color;
+layout(location = 8) in vec2 uv1;
+layout(location = 9) in vec4 color;
 #endif
 
-layout(std430, binding = 0) readonly buffer Instances { InstanceData instances[]; };
 #ifdef MAPPED
-layout(std430, binding = 1) readonly buffer Materials { MaterialData materials[]; };
+layout(std140, binding = 0) uniform Material { MaterialData material; };
 #endif
 
 uniform mat4 clipFromView[kMostMatrices];
@@ -28,14 +28,10 @@ uniform int firstLayer;
 #include "scene/varyings.glsl"
 
 void main() {
-    mat4 viewFromMesh = instances[drawIndex].viewFromMesh;
-    material = instances[drawIndex].material.x;
     vec4 viewPosition = viewFromMesh * vec4(position, 1.0);
 #ifdef MAPPED
-    // Not per pixel: pixels of a quad that a triangle does not cover may read no buffer, and the level of a texture
-    // hangs on them.
     for (int slot = 0; slot < kMaterialTextures; ++slot) {
-        vec4 linear = materials[material].uvLinear[slot], offset = materials[material].uvOffset[slot];
+        vec4 linear = material.uvLinear[slot], offset = material.uvOffset[slot];
 #ifdef EXTRAS
         vec2 from = offset.z > 0.5 ? uv1 : uv;
 #else

@@ -4,7 +4,7 @@
 #include "scene/base_color.glsl"
 #include "scene/brdf.glsl"
 
-layout(std430, binding = 2) readonly buffer Lights { LightData lights[]; };
+layout(std430, binding = 0) readonly buffer Lights { LightData lights[]; };
 
 layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 2) uniform sampler2D normalTexture;
@@ -18,36 +18,36 @@ uniform float exposure;    // radiance is scaled by it here, so that half floats
 layout(location = 0) out vec4 radiance;
 
 #ifdef LIT
-vec3 shadingNormal(MaterialData m) {
+vec3 shadingNormal() {
     vec3 n = normalize(surface.normal) * (gl_FrontFacing ? 1.0 : -1.0);
 #ifdef NORMAL_MAP
     vec3 t = surface.tangent.xyz - n * dot(n, surface.tangent.xyz);
     if (dot(t, t) > 1e-20) {
         t = normalize(t);
         vec3 b = cross(n, t) * surface.tangent.w;
-        vec3 local = texture(normalTexture, uvOf(kNormal)).xyz * 2.0 - 1.0;
-        local.xy *= m.emissive.w;
+        vec3 local = readTexture(normalTexture, uvOf(kNormal)).xyz * 2.0 - 1.0;
+        local.xy *= material.emissive.w;
         n = normalize(mat3(t, b, n) * local);
     }
 #endif
     return n;
 }
 
-vec3 lit(MaterialData m, vec3 baseColor) {
-    float metallic = m.surface.x;
-    float roughness = m.surface.y;
+vec3 lit(vec3 baseColor) {
+    float metallic = material.surface.x;
+    float roughness = material.surface.y;
 #ifdef SURFACE_MAP
-    vec4 mr = texture(metallicRoughnessTexture, uvOf(kMetallicRoughness));
+    vec4 mr = readTexture(metallicRoughnessTexture, uvOf(kMetallicRoughness));
     metallic *= mr.b;
     roughness *= mr.g;
 #endif
-    vec3 n = shadingNormal(m);
+    vec3 n = shadingNormal();
     vec3 v = normalize(-surface.viewPosition);
     Reflectance r = reflectance(baseColor, metallic, roughness, max(dot(n, v), 1e-4));
     vec3 sum = r.diffuse * sky(n, up) + r.environment * sky(reflect(-v, n), up);
 #ifdef OCCLUSION
     // glTF 2.0, 3.9.3: of indirect light only
-    sum *= 1.0 + m.light.x * (texture(occlusionTexture, uvOf(kOcclusion)).r - 1.0);
+    sum *= 1.0 + material.light.x * (readTexture(occlusionTexture, uvOf(kOcclusion)).r - 1.0);
 #endif
     for (int i = 0; i < lightCount; ++i) {
         vec3 l;
@@ -59,15 +59,14 @@ vec3 lit(MaterialData m, vec3 baseColor) {
 #endif
 
 void main() {
-    MaterialData m = materials[material];
-    vec4 baseColor = baseColorOf(m);
+    vec4 baseColor = baseColorOf();
 #ifdef LIT
-    vec3 color = lit(m, baseColor.rgb);
+    vec3 color = lit(baseColor.rgb);
 #else
     vec3 color = baseColor.rgb;
 #endif
 #ifdef EMISSIVE
-    color += m.emissive.rgb * texture(emissiveTexture, uvOf(kEmissive)).rgb;
+    color += material.emissive.rgb * readTexture(emissiveTexture, uvOf(kEmissive)).rgb;
 #endif
     // Half floats end at 65504; NaN (0/0 in a degenerate triangle) becomes 0 by the order of max's arguments.
     radiance = vec4(min(max(vec3(0.0), color * exposure), vec3(65504.0)), 1.0);

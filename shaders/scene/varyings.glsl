@@ -12,4 +12,3 @@ STAGE Surface {
     vec4 color;
 #endif
 } surface;
-flat STAGE uint material;

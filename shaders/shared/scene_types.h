@@ -1,10 +1,8 @@
-// Structs of the scene's buffers, read by C++ and GLSL alike (std430: vec4 and mat4 members only).
+// Structs of the scene's buffers, read by C++ and GLSL alike (std140 and std430 alike: vec4 members only).
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>
 namespace dioptre::gpu {
-using glm::mat4;
-using glm::uvec4;
 using glm::vec4;
 #endif
 
@@ -15,11 +13,6 @@ const int kMostMatrices = 4;
 const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kEmissive = 3, kOcclusion = 4;
 const int kMaterialTextures = 5;
 
-struct InstanceData {
-    mat4 viewFromMesh;  // eye-relative, so that a scene far from the origin keeps its digits
-    uvec4 material;     // x: index into the materials
-};
-
 struct MaterialData {
     vec4 baseColor;
     vec4 emissive;  // rgb: radiance; w: normal map's scale
@@ -28,6 +21,7 @@ struct MaterialData {
     // How each texture is read (KHR_texture_transform): uv = mat2(xy, zw) * the vertex's + xy, its second set if z is 1.
     vec4 uvLinear[kMaterialTextures];
     vec4 uvOffset[kMaterialTextures];
+    vec4 unused[2];  // to 256 bytes, at which any uniform block may begin
 };
 
 struct LightData {
@@ -38,6 +32,6 @@ struct LightData {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(InstanceData) == 80 && sizeof(MaterialData) == 224 && sizeof(LightData) == 64);
+static_assert(sizeof(MaterialData) == 256 && sizeof(LightData) == 64);
 }  // namespace dioptre::gpu
 #endif

@@ -16,9 +16,9 @@ namespace {
 using namespace test;
 
 /// Things at many depths over a wall.
-SceneBuilder manyDepths(const View& view) {
+SceneBuilder manyDepths(const View& view, bool textured = true) {
     SceneBuilder b;
-    b.wall(6.0, b.textured(checkerImage(16)), 12.0);
+    b.wall(6.0, textured ? b.textured(checkerImage(16)) : b.unlit(glm::vec3(0.3f)), 12.0);
     for (int i = 0; i < 10; ++i) {
         const double x = 8.0 + 18.0 * i, d = 0.6 + 0.45 * ((i * 7) % 10);
         b.quad(view, {x, 15.0 + 6.0 * i, x + 12.0, 90.0 + 5.0 * i}, d,
@@ -47,13 +47,28 @@ class AccumulateGLTest : public GlTest {
 
 TEST_F(AccumulateGLTest, WithNothingToSaveItIsTheReferenceToTheBit) {
     Shot shot;
-    const GpuScene scene(manyDepths(shot.view).scene());
-    shot.lens = lensFor(shot.view, 15.0, 10.0, 1.0);  // nothing is near focus
+    const GpuScene scene(manyDepths(shot.view, false).scene());  // blurred textures are read coarser
+    shot.lens = lensFor(shot.view, 15.0, 10.0, 1.0);             // nothing is near focus
     for (const int samples : {1, 6, 32}) {
         const Image mine = draw(scene, shot, samples, 0);
         EXPECT_EQ(mine.pixels, plain(scene, shot, samples).pixels) << samples;
         EXPECT_TRUE(technique_.plan().sharing.parents.empty());
     }
+}
+
+// A fine pattern behind the focus, whose finest texels a few samples would make noise of; in focus it is read as always.
+TEST_F(AccumulateGLTest, TexturesOfWhatIsBlurredAreReadNoFinerThanSamplesLie) {
+    Shot shot;
+    SceneBuilder b;
+    b.wall(6.0, b.textured(checkerImage(256)), 12.0);
+    const GpuScene scene(b.scene());
+    shot.lens = lensFor(shot.view, 10.0, 0.5, 1.6);
+    const Image reference = plain(scene, shot, 1024);
+    const double mine = compareImages(draw(scene, shot, 16, 0), reference).psnr;
+    const double plain16 = compareImages(plain(scene, shot, 16), reference).psnr;
+    EXPECT_GT(mine, plain16 + 3.0);
+    shot.lens.focus = vergence(Metres(6.0));
+    EXPECT_EQ(draw(scene, shot, 16, 0).pixels, plain(scene, shot, 16).pixels);
 }
 
 TEST_F(AccumulateGLTest, SharedRenderingsMoveNothingByMoreThanTheirCells) {
@@ -195,7 +210,7 @@ class SubsampleGLTest : public GlTest {
         gpu.arrange(list, 1);
         layers_.bind(true);
         const glm::mat4 clip(clipFromView(shot.view));
-        gpu.drawThroughLens(list, {&clip, 1}, 1.0f, 0.0f);
+        gpu.drawThroughLens(list, {&clip, 1}, 1.0f, {});
         PassLog log;
         EyeFrame frame{gpu, shot.view, shot.lens, 1.0f, 0, {}, log, 1};
         sum_.begin(frame);

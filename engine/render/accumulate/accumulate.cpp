@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "optics/lens_samples.hpp"
@@ -33,6 +34,15 @@ std::vector<glm::mat4> clipsOf(const EyeFrame& frame, std::span<const LensSample
     clips.reserve(samples.size());
     for (const LensSample& sample : samples) clips.emplace_back(clipFromView(frame.view, frame.lens, sample));
     return clips;
+}
+
+/// Of what is drawn for each sample. N samples filter a pixel; of what is blurred by a CoC radius c they lie
+/// c sqrt(pi / (N (S + 1))) apart, sub-samples included, and texels of half that, between which textures are read, are
+/// fine enough: finer ones would make noise of it.
+TextureFilter textureFilter(const EyeFrame& frame) {
+    const auto spread = static_cast<float>(0.5 * std::sqrt(std::numbers::pi / (frame.subsamples + 1)));
+    const CocTransform coc = cocTransform(frame);
+    return {textureLodBias(frame.samples), {coc.scale * spread, coc.bias * spread}};
 }
 
 /// White is the finest; then blue to green to red, from level 1 to 8 and coarser.
@@ -96,7 +106,7 @@ void Accumulate::drawSprites(const EyeFrame& frame, int needed) {
         frame.scene.arrange(list_, count, levelsFor(true, first, count, static_cast<int>(parents.size())));
         frame.scene.drawThroughLens(
             list_, clipsOf(frame, parents.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count))),
-            frame.exposure, textureLodBias(static_cast<int>(parents.size())), first);
+            frame.exposure, TextureFilter{textureLodBias(static_cast<int>(parents.size()))}, first);
         sprites_.drawn += count;
     }
 }
@@ -134,7 +144,7 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
         std::vector<LensSample> samples;
         samples.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i) samples.push_back(lensSample(frame.firstSample + first + i, frame.lens));
-        frame.scene.drawThroughLens(list_, clipsOf(frame, samples), frame.exposure, textureLodBias(frame.samples));
+        frame.scene.drawThroughLens(list_, clipsOf(frame, samples), frame.exposure, textureFilter(frame));
     }
     if (frame.subsamples == 0) {
         PassScope scope(frame.log, "sum");
@@ -171,7 +181,7 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
             glEnable(GL_BLEND);
             glBlendColor(color.r, color.g, color.b, 1.0f);
             glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
-            frame.scene.drawThroughLens(list_, {&clip, 1}, exposure, 0.0f);
+            frame.scene.drawThroughLens(list_, {&clip, 1}, exposure, {});
             glDisable(GL_BLEND);
         }
         sum_.add(layers_, 1);

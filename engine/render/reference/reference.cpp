@@ -17,7 +17,7 @@ void Reference::addBatch(const EyeFrame& frame, int count) {
         clips.emplace_back(
             clipFromView(frame.view, frame.lens, lensSample(frame.firstSample + sum_.drawn() + i, frame.lens)));
     layers_.bind(true);
-    frame.scene.drawThroughLens(list_, clips, frame.exposure, textureLodBias(frame.samples));
+    frame.scene.drawThroughLens(list_, clips, frame.exposure, TextureFilter{textureLodBias(frame.samples)});
     sum_.add(layers_, count);
 }
 
