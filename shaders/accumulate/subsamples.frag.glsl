@@ -18,33 +18,37 @@ layout(location = 0) out vec4 sum;
 const float kTolerance = 0.75;
 const int kMostSteps = 32;
 
-// Between texels: nearest ones gave SSIM 0.980 to the reference where linear ones gave 0.984.
-vec3 colorAt(vec2 position, int layer) {
-    return texture(colors, vec3(position / vec2(textureSize(colors, 0).xy), layer)).rgb;
-}
 ivec3 texelAt(vec2 position, int layer) {
     return ivec3(clamp(ivec2(position), ivec2(0), textureSize(depths, 0).xy - 1), layer);
 }
 float radiusAt(vec2 position, int layer) { return coc.x * texelFetch(depths, texelAt(position, layer), 0).r + coc.y; }
 
-// What is seen at `pixel` through the point of the lens that is `offset` away from the layer's.
-vec3 lookup(vec2 pixel, int layer, vec2 offset, vec2 radii) {
+// Where the layer has what is seen at `pixel` through the point of the lens that is `offset` away from its own. The
+// search only looks at depths: software renderers run both sides of every branch.
+vec2 place(vec2 pixel, int layer, vec2 offset, vec2 radii) {
     float perRadius = max(abs(offset.x), abs(offset.y));  // pixels along the ray for one of CoC radius
     float length = (radii.y - radii.x) * perRadius;
-    if (length < kTolerance) return colorAt(pixel - 0.5 * (radii.x + radii.y) * offset, layer);
+    bool found = length < kTolerance;
+    vec2 at = pixel - 0.5 * (radii.x + radii.y) * offset;
     int steps = min(int(ceil(length)), kMostSteps);
-    float stride = (radii.y - radii.x) / float(steps);
-    float tolerance = max(kTolerance, 0.75 * length / float(steps)) / perRadius;
+    float stride = (radii.y - radii.x) / float(max(steps, 1));
+    float tolerance = max(kTolerance, 0.75 * abs(stride) * perRadius) / perRadius;
     vec2 behind = pixel;  // the nearest bound is before all there is: but for rounding, the first place is behind
-    for (int i = 0; i <= steps; ++i) {
+    for (int i = 0; i <= steps && !found; ++i) {
         float radius = radii.x + float(i) * stride;
-        vec2 at = pixel - radius * offset;
+        at = pixel - radius * offset;
         float difference = radiusAt(at, layer) - radius;
-        if (abs(difference) <= tolerance) return colorAt(at, layer);
+        found = abs(difference) <= tolerance;
         if (difference > 0.0) behind = at;
     }
-    // The texel itself: next to it is what hides the rest.
-    return texelFetch(colors, texelAt(behind, layer), 0).rgb;
+    // The texel's middle: next to it is what hides the rest.
+    return found ? at : floor(behind) + 0.5;
+}
+
+// Between texels: nearest ones gave SSIM 0.980 to the reference where linear ones gave 0.984.
+vec3 lookup(vec2 pixel, int layer, vec2 offset, vec2 radii) {
+    vec2 at = place(pixel, layer, offset, radii);
+    return texture(colors, vec3(at / vec2(textureSize(colors, 0).xy), layer)).rgb;
 }
 
 void main() {
