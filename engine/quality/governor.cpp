@@ -14,10 +14,12 @@ constexpr double kAfterMiss = 0.9;
 constexpr double kWorthIt = 0.95;  // a better method has at most that share of the error
 constexpr int kForeseenFrames = 10, kSharpFrames = 10;
 constexpr int kHopefulFrames = 4;
+// Standard deviations that an unsure price may be too high, at first; one more after that time without anything to try.
+constexpr double kHope = 2.0, kMoreHopeSeconds = 60.0;
 constexpr double kBetweenUps = 1.0, kFadeSeconds = 0.1;
 // What a method that failed must leave free when it is tried again, for each failure.
 constexpr double kMoreRoom = 0.02;
-constexpr int kMostFailures = 14;
+constexpr int kMostFailures = 14, kProbation = 20;
 
 bool differ(double a, double b, double ratio) {
     return std::max(a, b) > ratio * std::max(std::min(a, b), 1e-9);
@@ -54,14 +56,14 @@ Governor::Conditions Governor::conditions(const Situation& s) const {
 /// The current method did not last.
 void Governor::left(const Plan& method, const Situation& s) {
     if (!entered_ || entered_->first != method) return;
-    const Conditions now = conditions(s);
-    if (entered_->second.like(now)) {
+    // What changes at once with the method is the method's.
+    if (enteredFrames_ < kProbation || entered_->second.like(conditions(s))) {
         auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const auto& t) { return t.first == method; });
         if (trial == trials_.end()) trial = trials_.insert(trials_.end(), {method, {}});
         Trial& t = trial->second;
         t.failures = std::min(t.failures + 1, kMostFailures);
         t.until = clock_ + std::exp2(t.failures) * kBetweenUps;
-        t.at = now;
+        t.at = entered_->second;
     }
     entered_.reset();
 }
@@ -89,8 +91,9 @@ Governor::Move Governor::adapt(const Market& market, const Situation& s) {
 }
 
 Governor::Move Governor::goDown(const Market& market, const Situation& s, bool missed) {
-    // What is tried in the hope that it is cheaper than its price shows it in its first frames.
-    if (hopefulFrames_ > 0 && --hopefulFrames_ > 0 && !missed) return {};
+    // What is tried in the hope that it is cheaper than its price shows it in its first frames; so that it is not tried
+    // for nothing, a second one tells where the first was unlikely.
+    if (hopefulFrames_ > 0 && --hopefulFrames_ > 0 && (!missed || prices_.suspects())) return {};
     const double kept = kKept * s.budgetMs;
     if (market.offer(*current_).milliseconds > kept) {
         const auto fewer = market.within(methodOf(*current_), kTarget * s.budgetMs);
@@ -124,7 +127,9 @@ std::optional<Offer> Governor::tryable(const Plan& method, const Market& market,
     }
     const double limit = std::max(1.0 - kMoreRoom * failures, 0.8) * kTarget * s.budgetMs;
     if (const auto offer = market.within(method, limit)) return offer;
-    return clock_ >= hopefulAfter_ ? market.within(method, limit, 1.0 / market.unsure(method)) : std::nullopt;
+    if (clock_ < hopefulAfter_) return std::nullopt;
+    const double hope = std::min(kHope + (clock_ - hopefulAfter_) / kMoreHopeSeconds, 2.0 * kHope);
+    return market.within(method, limit, std::pow(market.unsure(method), -hope));
 }
 
 /// What is better than the current plan by enough, and for how long; the same one as long as it is.
@@ -150,6 +155,7 @@ void Governor::enter(const Offer& to, const Market& market, const Situation& s) 
     const Offer from = market.offer(*current_);
     left(methodOf(from.plan), s);
     entered_ = {methodOf(to.plan), conditions(s)};
+    enteredFrames_ = 0;
     // Foreseen to fit only if it is cheaper than its price says
     hopefulFrames_ = 0;
     if (to.milliseconds > target) {
@@ -224,6 +230,7 @@ Decision Governor::decide(const Situation& situation) {
     Situation s = situation;
     if (!(s.budgetMs > 0.0)) s.budgetMs = 0.0;
     advanceClock(s);
+    ++enteredFrames_;
     if (s.lastMs) prices_.learn(drawn_, drawnView_, *s.lastMs);
     const bool missed = s.lastMs && *s.lastMs > s.budgetMs;
 

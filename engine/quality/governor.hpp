@@ -125,6 +125,7 @@ class Governor {
     } fade_;
     std::vector<std::pair<Plan, Trial>> trials_;       // by method
     std::optional<std::pair<Plan, Conditions>> entered_;  // the current method, if it was gone up to
+    long enteredFrames_ = 0;                              // since then
     double clock_ = 0.0, step_ = 0.0;                  // seconds: own, never backwards; of the last frame
     std::optional<double> lastNow_;
     double lastUp_ = -1e9;

@@ -15,11 +15,11 @@ constexpr double kNoise = 0.06;
 // A frame that far off its price is no noise: 1.5 times what an even 10 % can do.
 constexpr double kJump = 0.15;
 // Before anything was drawn: another machine, then how far tables measured on one scene miss another.
-constexpr double kLoadPrior = 2.0, kStagePrior = 0.3, kTechniquePrior = 0.2, kMethodPrior = 0.25;
+constexpr double kLoadPrior = 2.0, kStagePrior = 0.3, kTechniquePrior = 0.2, kMethodPrior = 0.25, kSmallerPrior = 0.12;
 // What a frame adds. The load's lets the price follow with a time constant of about 20 frames.
 constexpr double kLoadDrift = 0.003, kOtherDrift = 0.0002;
-// Until then a jump after a change of method is that method's.
-constexpr int kNewFrames = 4;
+// Until then a jump after a change of method is that method's; but if the load has just jumped, it may jump back.
+constexpr int kNewFrames = 4, kKnownFrames = 20;
 // A relative price found under conditions that may have passed is doubted in the end: frames to 1/e.
 constexpr double kForgetFrames = 30000.0;
 
@@ -31,7 +31,7 @@ double square(double x) {
 
 PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)), methods_(table.methods()) {
     const auto add = [&](double prior, double drift) {
-        factors_.push_back({0.0, 0.0, square(drift), square(prior)});
+        factors_.push_back({.drift = square(drift), .most = square(prior)});
     };
     add(kLoadPrior, kLoadDrift);
     for (std::size_t i = 0; i < kStages; ++i) add(kStagePrior, kOtherDrift);
@@ -45,7 +45,7 @@ PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)
                 methods_.back().eighths = eighths;
             }
     for (const Plan& method : methods_) {
-        add(kMethodPrior, kOtherDrift);
+        add(method.eighths == 8 ? kMethodPrior : kSmallerPrior, kOtherDrift);
         double sum = 0.0, count = 0.0;
         for (const TradeTable::Row& row : table.rows) {
             Plan measured = methodOf(row.plan);
@@ -142,12 +142,30 @@ void PriceModel::correct(std::span<const double> h, double difference) {
     }
 }
 
+/// Makes unsure what a jump that nobody expected is due to.
+void PriceModel::blame(std::size_t method, double jump) {
+    const bool fresh = drawnFrames_ <= kNewFrames && sinceJump_ > 2 * kNewFrames && method < factors_.size();
+    const bool known = fresh && factors_[method].frames > kKnownFrames;
+    // A method dearer than foreseen is found out by drawing it. One far cheaper than that is not so likely as a load that
+    // went.
+    if (fresh && !known && jump > -3.0 * std::sqrt(factors_[method].most)) {
+        covariance_[method][method] += square(jump);
+        return;
+    }
+    // Of what is known a little may have changed.
+    if (known) covariance_[method][method] += 0.1 * square(jump);
+    covariance_[kLoad][kLoad] += square(jump);
+    sinceJump_ = 0;
+}
+
 void PriceModel::learn(std::span<const Plan> drawn, const ViewClass& view, double milliseconds) {
     constexpr double kLeastMs = 1e-4, kMostMs = 1e7;
     if (drawn.empty() || !(milliseconds >= kLeastMs && milliseconds <= kMostMs)) return;
     const Plan method = methodOf(drawn.back());
     drawnFrames_ = drawn_ == method ? drawnFrames_ + 1 : 1;
     drawn_ = method;
+    ++sinceJump_;
+    if (const std::size_t own = indexOf(method); own < factors_.size()) ++factors_[own].frames;
     drift(method);
 
     double expected = 0.0;
@@ -162,9 +180,7 @@ void PriceModel::learn(std::span<const Plan> drawn, const ViewClass& view, doubl
         suspicion_ = 0.0;
         if (std::abs(before) < std::abs(difference)) difference = before;
         if (std::abs(difference) > 2.0 * standardDeviation(h)) {
-            const std::size_t own = indexOf(method);
-            const std::size_t changed = drawnFrames_ <= kNewFrames && own < factors_.size() ? own : kLoad;
-            covariance_[changed][changed] += square(difference);
+            blame(indexOf(method), difference);
         }
     } else {
         suspicion_ = 0.0;

@@ -57,12 +57,14 @@ class PriceModel {
     double standardDeviation(std::span<const double> h) const;
     std::size_t indexOf(const Plan& plan) const;
     void drift(const Plan& drawn);
+    void blame(std::size_t method, double jump);
     void correct(std::span<const double> h, double difference);
 
     struct Factor {
         double log = 0.0, prior = 0.0;  // x now; and where it returns to while nothing is heard of it
         double drift = 0.0;             // variance that a frame adds
         double most = 0.0;              // variance
+        long frames = 0;                // of a method: in which it was drawn
     };
     Coefficients coefficients_;
     std::vector<Plan> methods_;
@@ -71,6 +73,7 @@ class PriceModel {
     double suspicion_ = 0.0;                       // the last frame's difference, while it stands alone
     std::optional<Plan> drawn_;                    // method of the last frame
     int drawnFrames_ = 0;                          // in succession
+    long sinceJump_ = 1000;                        // frames since the load was last seen to jump
 };
 
 }  // namespace dioptre
