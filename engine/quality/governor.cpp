@@ -21,6 +21,16 @@ constexpr double kBetweenUps = 1.0, kFadeSeconds = 0.1;
 constexpr double kMoreRoom = 0.02;
 constexpr int kMostFailures = 14, kProbation = 20;
 
+/// A view of which something could not be measured is planned as if there were none of it.
+ViewClass sane(ViewClass view) {
+    constexpr double kMost = 1e12;
+    for (double* value : {&view.triangles, &view.pixels, &view.meanCocPx, &view.largestCocPx})
+        *value = std::isfinite(*value) ? std::clamp(*value, 0.0, kMost) : 0.0;
+    view.behindShare = view.behindShare >= 0.0 && view.behindShare <= 1.0 ? view.behindShare : 0.5;
+    view.eyes = std::clamp(view.eyes, 1, 2);
+    return view;
+}
+
 bool differ(double a, double b, double ratio) {
     return std::max(a, b) > ratio * std::max(std::min(a, b), 1e-9);
 }
@@ -69,23 +79,27 @@ void Governor::left(const Plan& method, const Situation& s) {
 }
 
 Governor::Move Governor::adapt(const Market& market, const Situation& s) {
+    const double target = kTarget * s.budgetMs;
     sharpFrames_ = s.requirements.blur ? 0 : sharpFrames_ + 1;
-    const bool pinhole = current_->technique == TechniqueChoice::pinhole;
-    if (sharpFrames_ >= kSharpFrames && !pinhole) {
+    if (sharpFrames_ >= kSharpFrames && !sharp_) {
+        sharp_ = true;
+        if (current_->technique == TechniqueChoice::pinhole) return {};
         shelved_ = current_;
         Plan method{TechniqueChoice::pinhole, current_->msaa.value_or(4), {}, {}, current_->eighths};
-        if (!market.within(method, kTarget * s.budgetMs)) method.msaa = 0;
+        if (!market.within(method, target)) method.msaa = 0;
         current_ = method;
         return {PlanChange::adapted, "nothing is blurred"};
     }
-    if (s.requirements.blur && shelved_) {
-        const Plan before = *std::exchange(shelved_, std::nullopt);
-        auto offer = market.within(methodOf(before), kTarget * s.budgetMs);
-        if (!offer) offer = market.within(market.adequate(), kTarget * s.budgetMs);
+    if (s.requirements.blur && sharp_) {
+        sharp_ = false;
+        const Plan before = std::exchange(shelved_, std::nullopt).value_or(market.adequate());
+        auto offer = market.within(methodOf(before), target);
+        if (!offer) offer = market.within(methodOf(market.adequate()), target);
         if (!offer) return {};
-        if (before.samples && offer->plan.samples) offer->plan.samples = std::min(*before.samples, *offer->plan.samples);
+        if (before.samples && offer->plan.samples)
+            offer->plan.samples = std::min(*before.samples, *offer->plan.samples);
         current_ = offer->plan;
-        return {PlanChange::adapted, "something is blurred again"};
+        return {PlanChange::adapted, "something is blurred"};
     }
     return {};
 }
@@ -222,22 +236,26 @@ Decision Governor::decision(const Market& market, const Situation& s, Move move)
     if (s.requirements.mayRefine && !s.unseen && s.budgetMs > 0.0)
         d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, kTarget * s.budgetMs,
                         market.samplesToReach(*current_)};
-    drawnView_ = s.view;
     return d;
 }
 
 Decision Governor::decide(const Situation& situation) {
     Situation s = situation;
     if (!(s.budgetMs > 0.0)) s.budgetMs = 0.0;
+    s.view = sane(s.view);
     advanceClock(s);
     ++enteredFrames_;
     if (s.lastMs) prices_.learn(drawn_, drawnView_, *s.lastMs);
     const bool missed = s.lastMs && *s.lastMs > s.budgetMs;
 
-    const Market market(prices_, table_, s.view, s.requirements);
+    if (!errors_ || s.view != drawnView_) errors_.emplace(table_, s.view);
+    const Market market(prices_, *errors_, s.view, s.requirements);
     const bool first = !current_;
     // Carefully: what the table says may be of another machine
-    if (first) current_ = market.adequate();
+    if (first) {
+        current_ = market.adequate();
+        sharp_ = !s.requirements.blur;
+    }
 
     Move move = adapt(market, s);
     if (const Move down = goDown(market, s, missed && !rested_); down.change != PlanChange::none) move = down;
@@ -249,6 +267,7 @@ Decision Governor::decide(const Situation& situation) {
     }
     if (fade_.running && (missed || !fadeFits(market, s, *current_))) fade_.running = false;
     if (first) move = {PlanChange::none, "the first frame"};
+    drawnView_ = s.view;
     return decision(market, s, move);
 }
 

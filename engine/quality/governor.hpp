@@ -113,6 +113,7 @@ class Governor {
     std::optional<Plan> current_;
     std::optional<Plan> shelved_;  // goes on when something is blurred again
     int sharpFrames_ = 0;          // in succession
+    bool sharp_ = false;           // the current plan is for a view without blur
     bool rested_ = false;
     struct {
         Plan method;
@@ -123,16 +124,17 @@ class Governor {
         double began = 0.0;
         bool running = false;
     } fade_;
-    std::vector<std::pair<Plan, Trial>> trials_;       // by method
+    std::vector<std::pair<Plan, Trial>> trials_;          // by method
     std::optional<std::pair<Plan, Conditions>> entered_;  // the current method, if it was gone up to
     long enteredFrames_ = 0;                              // since then
-    double clock_ = 0.0, step_ = 0.0;                  // seconds: own, never backwards; of the last frame
+    double clock_ = 0.0, step_ = 0.0;                     // seconds: own, never backwards; of the last frame
     std::optional<double> lastNow_;
     double lastUp_ = -1e9;
-    int hopefulFrames_ = 0;  // left of such a trial
+    int hopefulFrames_ = 0;                          // left of such a trial
     double hopefulWait_ = 2.0, hopefulAfter_ = 2.0;  // seconds, own clock: when what is dear but unsure may be tried
-    std::vector<Plan> drawn_;  // as last decided
+    std::vector<Plan> drawn_;                        // as last decided
     ViewClass drawnView_;
+    std::optional<ExpectedErrors> errors_;  // in that view
 };
 
 }  // namespace dioptre

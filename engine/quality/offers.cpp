@@ -14,9 +14,9 @@ Plan withSamples(Plan method, double samples) {
 
 }  // namespace
 
-Market::Market(const PriceModel& prices, const TradeTable& table, const ViewClass& view,
+Market::Market(const PriceModel& prices, const ExpectedErrors& errors, const ViewClass& view,
                const Requirements& requirements)
-    : prices_(prices), errors_(table, view), view_(view), requirements_(requirements) {}
+    : prices_(prices), errors_(errors), view_(view), requirements_(requirements) {}
 
 bool Market::allows(const Plan& plan) const {
     return requirements_.blur || plan.technique == TechniqueChoice::pinhole;

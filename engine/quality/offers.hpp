@@ -23,7 +23,9 @@ struct Offer {
 /// One view, its prices and errors.
 class Market {
   public:
-    Market(const PriceModel& prices, const TradeTable& table, const ViewClass& view, const Requirements& requirements);
+    /// All outlive it.
+    Market(const PriceModel& prices, const ExpectedErrors& errors, const ViewClass& view,
+           const Requirements& requirements);
 
     /// Methods that may draw this view: where nothing is blurred, pinholes.
     std::vector<Plan> methods() const;
@@ -47,7 +49,7 @@ class Market {
 
   private:
     const PriceModel& prices_;
-    ExpectedErrors errors_;
+    const ExpectedErrors& errors_;
     const ViewClass& view_;
     const Requirements& requirements_;
 };

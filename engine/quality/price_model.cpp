@@ -52,8 +52,7 @@ PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)
             measured.eighths = method.eighths;
             if (measured != method) continue;
             for (const TradeTable::Entry& entry : row.entries) {
-                sum += std::log(entry.milliseconds /
-                                priceOf(coefficients_, workOf(row.plan, table.views[entry.view])));
+                sum += std::log(entry.milliseconds / priceOf(coefficients_, workOf(row.plan, table.views[entry.view])));
                 count += 1.0;
             }
         }
@@ -65,7 +64,8 @@ PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)
 
 std::size_t PriceModel::indexOf(const Plan& plan) const {
     const auto found = std::find(methods_.begin(), methods_.end(), methodOf(plan));
-    return found == methods_.end() ? factors_.size() : kFirstMethod + static_cast<std::size_t>(found - methods_.begin());
+    return found == methods_.end() ? factors_.size()
+                                   : kFirstMethod + static_cast<std::size_t>(found - methods_.begin());
 }
 
 double PriceModel::price(const Plan& plan, const ViewClass& view) const {

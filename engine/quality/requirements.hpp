@@ -55,13 +55,13 @@ struct Omission {
 };
 
 struct Requirements {
-    bool blur = true;                         // else a pinhole's picture is the picture
-    bool foreground = true;                   // something in front of focus is blurred
-    double largestInFront = 0.0;              // CoC RADIUS, px, >= 0
-    double largestBehind = 0.0;               // CoC RADIUS, px, >= 0
-    std::optional<int> mostSamples;           // more make no visible difference; none: no limit
-    bool shapedDiscs = false;                 // highlights show the aperture's corners
-    bool mayRefine = false;                   // nothing moves: frames may continue one another
+    bool blur = true;                // else a pinhole's picture is the picture
+    bool foreground = true;          // something in front of focus is blurred
+    double largestInFront = 0.0;     // CoC RADIUS, px, >= 0
+    double largestBehind = 0.0;      // CoC RADIUS, px, >= 0
+    std::optional<int> mostSamples;  // more make no visible difference; none: no limit
+    bool shapedDiscs = false;        // highlights show the aperture's corners
+    bool mayRefine = false;          // nothing moves: frames may continue one another
     std::vector<Omission> omitted;
 };
 Requirements require(const ViewFacts& facts);

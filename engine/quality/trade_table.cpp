@@ -22,23 +22,23 @@ constexpr int kSchema = 2;
 /// A value of the file, and where it stands: "llvmpipe.json: plans[3].ms".
 class Element {
   public:
-    Element(const Json& value, std::string where) : value_(value), where_(std::move(where)) {}
+    Element(const Json& value, std::string_view file, std::string path = "")
+        : value_(value), file_(file), path_(std::move(path)) {}
 
     [[noreturn]] void fail(const std::string& limit) const {
-        throw InputError(fmt::format("{}: {}, must be {}", where_, quote(value_.dump()), limit));
+        throw InputError(fmt::format("{}: {}, must be {}", where(), quote(value_.dump()), limit));
     }
-    bool has(const char* key) const { return value_.is_object() && value_.contains(key); }
     Element at(const char* key) const {
         if (!value_.is_object()) fail("an object");
         const auto found = value_.find(key);
-        if (found == value_.end()) throw InputError(fmt::format("{}: key '{}' is missing", where_, key));
-        return {*found, fmt::format("{}{}{}", where_, where_.ends_with(':') ? " " : ".", key)};
+        if (found == value_.end()) throw InputError(fmt::format("{}: key '{}' is missing", where(), key));
+        return {*found, file_, path_.empty() ? key : fmt::format("{}.{}", path_, key)};
     }
     std::vector<Element> list() const {
         if (!value_.is_array() || value_.empty()) fail("a list that is not empty");
         std::vector<Element> elements;
         for (std::size_t i = 0; i < value_.size(); ++i)
-            elements.emplace_back(value_[i], fmt::format("{}[{}]", where_, i));
+            elements.emplace_back(value_[i], file_, fmt::format("{}[{}]", path_, i));
         return elements;
     }
     double number(double least, double most) const {
@@ -56,8 +56,11 @@ class Element {
     }
 
   private:
+    std::string where() const { return path_.empty() ? std::string(file_) : fmt::format("{}: {}", file_, path_); }
+
     const Json& value_;
-    std::string where_;
+    std::string_view file_;
+    std::string path_;
 };
 
 constexpr double kMost = 1e12;  // triangles, pixels, px, ms: beyond anything that is measured
@@ -133,7 +136,7 @@ double errorOfScale(int eighths, double meanCocPx) {
 TradeTable parseTradeTable(std::string_view json, std::string_view where) {
     const Json root = Json::parse(json, nullptr, false, true);
     if (root.is_discarded()) throw InputError(fmt::format("{}: broken JSON", where));
-    return tableOf({root, fmt::format("{}:", where)});
+    return tableOf({root, where});
 }
 
 TradeTable readTradeTable(const std::filesystem::path& file) {
@@ -203,8 +206,7 @@ double ExpectedErrors::slopeOf(const Curve& curve, double logSamples) const {
 double ExpectedErrors::of(const Plan& plan) const {
     Plan method = methodOf(plan);
     method.eighths = 8;
-    const auto curve =
-        std::find_if(curves_.begin(), curves_.end(), [&](const Curve& c) { return c.method == method; });
+    const auto curve = std::find_if(curves_.begin(), curves_.end(), [&](const Curve& c) { return c.method == method; });
     if (curve == curves_.end()) return 1.0;
     const std::vector<Point>& p = curve->points;
     double logError = p.front().logError;

@@ -29,10 +29,10 @@ class SimulatedRenderer {
         return std::exp(std::uniform_real_distribution(-std::log(most), std::log(most))(random_));
     }
 
-    double noise = 0.1;           // evenly, to either side
-    double spikeShare = 0.003;    // of the frames
-    double spike = 4.0;           // times as long
-    double load = 1.0;            // on everything
+    double noise = 0.1;         // evenly, to either side
+    double spikeShare = 0.003;  // of the frames
+    double spike = 4.0;         // times as long
+    double load = 1.0;          // on everything
 
     /// Milliseconds without noise and spikes.
     double cost(const Plan& plan, const ViewClass& view) const {
