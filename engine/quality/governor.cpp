@@ -19,7 +19,10 @@ constexpr double kHope = 2.0, kMoreHopeSeconds = 60.0;
 constexpr double kBetweenUps = 1.0, kFadeSeconds = 0.1;
 // What a method that failed must leave free when it is tried again, for each failure.
 constexpr double kMoreRoom = 0.02;
-constexpr int kMostFailures = 14, kProbation = 20;
+constexpr int kMostFailures = 14;
+// A method left so soon has failed whatever else changed: it may be what slowed the machine. Others are conditions only
+// after some frames, since a price in the midst of being corrected looks like a load.
+constexpr int kProbation = 100, kOtherFrames = 30;
 
 /// A view of which something could not be measured is planned as if there were none of it.
 ViewClass sane(ViewClass view) {
@@ -66,7 +69,6 @@ Governor::Conditions Governor::conditions(const Situation& s) const {
 /// The current method did not last.
 void Governor::left(const Plan& method, const Situation& s) {
     if (!entered_ || entered_->first != method) return;
-    // What changes at once with the method is the method's.
     if (enteredFrames_ < kProbation || entered_->second.like(conditions(s))) {
         auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const auto& t) { return t.first == method; });
         if (trial == trials_.end()) trial = trials_.insert(trials_.end(), {method, {}});
@@ -135,7 +137,8 @@ std::optional<Offer> Governor::tryable(const Plan& method, const Market& market,
     int failures = 0;
     for (auto& [tried, trial] : trials_) {
         if (tried != method) continue;
-        if (!trial.at.like(conditions(s))) trial = {};
+        trial.otherFrames = trial.at.like(conditions(s)) ? 0 : trial.otherFrames + 1;
+        if (trial.otherFrames > kOtherFrames) trial = {};
         if (clock_ < trial.until) return std::nullopt;
         failures = trial.failures;
     }

@@ -89,6 +89,7 @@ class Governor {
         int failures = 0;
         double until = 0.0;  // own clock
         Conditions at;
+        int otherFrames = 0;  // in succession that conditions were others
     };
     struct Move {
         PlanChange change = PlanChange::none;

@@ -117,11 +117,9 @@ Offer bestOf(const SimulatedRenderer& renderer, const ViewClass& view, double bu
 
 constexpr unsigned kSeeds = 50;
 
-// Noise and spikes: what spikes alone cost is 0.3 %.
-TEST(GovernorTest, KeepsTheBudgetAndUsesIt) {
+// Noise and spikes: spikes alone cost 0.3 %.
+TEST(GovernorTest, KeepsTheBudgetAndComesNearTheBestPlan) {
     int nearBest = 0, judged = 0;
-    double used = 0.0;
-    int fine = 0;
     for (unsigned seed = 0; seed < kSeeds; ++seed) {
         SimulatedRenderer renderer(seed);
         const ViewClass view = someView(renderer);
@@ -135,15 +133,29 @@ TEST(GovernorTest, KeepsTheBudgetAndUsesIt) {
         if (best.error > 1.0) continue;
         ++judged;
         nearBest += run.last.expectedError <= 1.1 * best.error;
-        // With steps of samples finer than a twentieth a better plan would not fit: the budget is there to be used.
-        if (run.last.plan.samples.value_or(0) < 20 || *run.last.plan.samples == kMostSamples) continue;
+    }
+    EXPECT_GE(judged, 45);
+    EXPECT_GE(nearBest, judged * 90 / 100) << "of " << judged;
+}
+
+// With steps of samples finer than a tenth of the budget there is always more that it could have been used for.
+TEST(GovernorTest, UsesTheBudgetWhereABetterPlanWouldNotFit) {
+    int fine = 0;
+    double used = 0.0;
+    for (unsigned seed = 0; seed < kSeeds / 2; ++seed) {
+        SimulatedRenderer renderer(seed);
+        const ViewClass view = someView(renderer);
+        const double budget = 60.0 * renderer.cost({TechniqueChoice::mipmap, 0, {}, {}}, view);
+        const Outcome run = play({renderer, view, budget});
+        const int samples = run.last.plan.samples.value_or(0);
+        if (samples < 10 || samples == kMostSamples) continue;
         ++fine;
         used += run.used;
-        EXPECT_GE(run.used, 0.85) << what;
+        EXPECT_GE(run.used, 0.8) << seed << ", " << planText(run.last.plan);
+        EXPECT_LE(run.used, 0.91) << seed << ", " << planText(run.last.plan);
     }
-    EXPECT_GE(nearBest, judged * 90 / 100) << "of " << judged;
-    EXPECT_GE(fine, 5);
-    EXPECT_GE(used / fine, 0.86);
+    EXPECT_GE(fine, 20);
+    EXPECT_GE(used / fine, 0.85);
 }
 
 TEST(GovernorTest, FollowsALoadThatTriplesForTwoSeconds) {
@@ -207,7 +219,9 @@ class QuietTest : public testing::Test {
         situation.view = table().views[1];
         situation.budgetMs = 400.0;
     }
-    double priceOf(const Plan& plan) const { return truth.price(plan, situation.view) * factor; }
+    double priceOf(const Plan& plan) const {
+        return truth.price(plan, situation.view) * factor * (plan == cheaper ? 0.5 : 1.0);
+    }
     Decision frame() {
         const Decision d = governor.decide(situation);
         double ms = priceOf(d.plan) + (d.fade ? priceOf(d.fade->from) : 0.0);
@@ -225,6 +239,7 @@ class QuietTest : public testing::Test {
     Governor governor{table()};
     Situation situation;
     double factor = 1.0;
+    std::optional<Plan> cheaper;  // costs half its price
 };
 
 TEST_F(QuietTest, BeginsWithTheCheapestThatBlurs) {
@@ -295,12 +310,49 @@ TEST_F(QuietTest, FadesWhereBothPlansFit) {
         EXPECT_GT(d.fade->weight, weight);
         EXPECT_LE(d.fade->weight, 1.0);
         EXPECT_LE(d.foreseenMs, 0.91 * situation.budgetMs);
+        const ExpectedErrors errors(table(), situation.view);
+        EXPECT_LE(errors.of(d.plan), errors.of(d.fade->from)) << planText(d.plan);
         if (d.change == PlanChange::up) ended = now + 0.1;
         EXPECT_LT(now, ended);
         weight = d.fade->weight;
         if (weight > 0.7) weight = 0.0;
     }
     EXPECT_GE(faded, 3);
+}
+
+// mipmap with msaa 4 looks too dear, and is not.
+TEST_F(QuietTest, FindsOutWhatIsCheaperThanItsPrice) {
+    const Plan msaa{TechniqueChoice::mipmap, 4, {}, {}};
+    situation.budgetMs = 0.9 * truth.price(msaa, situation.view);
+    cheaper = msaa;
+    const Decision d = frames(static_cast<int>(30e3 / situation.budgetMs));
+    EXPECT_EQ(d.plan, msaa);
+}
+
+// It is as dear as it looks: a few frames are missed, ever more seldom.
+TEST_F(QuietTest, DoesNotTryWhatIsTooDearAgainAndAgain) {
+    situation.budgetMs = 0.9 * truth.price({TechniqueChoice::mipmap, 4, {}, {}}, situation.view);
+    int missed = 0, ups = 0;
+    for (int i = 0; i < 5000; ++i) {
+        ups += frame().change == PlanChange::up;
+        missed += *situation.lastMs > situation.budgetMs;
+    }
+    EXPECT_LE(ups, 8);
+    EXPECT_LE(missed, 12);
+}
+
+// What it draws slows the machine after a while, and only while it is drawn: a price that cannot be remembered.
+TEST_F(QuietTest, TriesWhatFailsEachTimeEverMoreSeldom) {
+    situation.budgetMs = 150.0;
+    int drawn = 0, ups = 0, last = 0;
+    for (int i = 0; i < 20000; ++i) {
+        factor = drawn > 40 ? 2.0 : 1.0;
+        const Decision d = frame();
+        drawn = d.plan.technique == TechniqueChoice::mipmap && d.plan.msaa == 0 ? 0 : drawn + 1;
+        if (d.change == PlanChange::up) ++ups, last = i;
+    }
+    EXPECT_GE(ups, 3);
+    EXPECT_LE(ups, 40) << "the last at frame " << last;
 }
 
 TEST_F(QuietTest, WhileNobodySeesTheCheapPlanWillDo) {
@@ -381,7 +433,10 @@ TEST_F(QuietTest, BrokenTimersHarmNothing) {
         }
     }
     situation.now = 1000.0;
-    EXPECT_EQ(methodOf(frames(200).plan), methodOf(settled));
+    situation.budgetMs = 70.0;
+    EXPECT_NE(methodOf(frames(5).plan), methodOf(settled));
+    situation.budgetMs = 400.0;
+    EXPECT_EQ(methodOf(frames(100).plan), methodOf(settled));
 }
 
 TEST_F(QuietTest, AClockThatStandsOrRunsBackwardsDelaysNoFadeAndNoChange) {
