@@ -14,7 +14,6 @@
 // - Where nothing is blurred pinholes are enough, after ten frames of it; the plan from before goes on with the blur.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>

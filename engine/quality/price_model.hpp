@@ -15,7 +15,6 @@
 // A single frame far off its price says nothing (a spike); a second one in the same direction makes both believed.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>

@@ -343,7 +343,7 @@ TEST_F(QuietTest, DoesNotTryWhatIsTooDearAgainAndAgain) {
 
 // What it draws slows the machine after a while, and only while it is drawn: a price that cannot be remembered.
 TEST_F(QuietTest, TriesWhatFailsEachTimeEverMoreSeldom) {
-    situation.budgetMs = 150.0;
+    situation.budgetMs = 200.0;
     int drawn = 0, ups = 0, last = 0;
     for (int i = 0; i < 20000; ++i) {
         factor = drawn > 40 ? 2.0 : 1.0;
@@ -351,8 +351,8 @@ TEST_F(QuietTest, TriesWhatFailsEachTimeEverMoreSeldom) {
         drawn = d.plan.technique == TechniqueChoice::mipmap && d.plan.msaa == 0 ? 0 : drawn + 1;
         if (d.change == PlanChange::up) ++ups, last = i;
     }
-    EXPECT_GE(ups, 3);
-    EXPECT_LE(ups, 40) << "the last at frame " << last;
+    EXPECT_GE(ups, 6) << "it does fail, each time";
+    EXPECT_LE(ups, 20) << "the last at frame " << last;
 }
 
 TEST_F(QuietTest, WhileNobodySeesTheCheapPlanWillDo) {

@@ -1,4 +1,5 @@
 // The measured table: what is read, what is refused, what it lets expect.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,9 +37,12 @@ TEST(TradeTableTest, ReadsWhatWasMeasured) {
     EXPECT_GT(small().views[0].largestCocPx, small().views[0].meanCocPx);
 }
 
-TEST(TradeTableTest, TheTableForUnknownMachinesIsWhole) {
-    const TradeTable table = readTradeTable(DIOPTRE_CONFIG "/trade/unknown.json");
-    EXPECT_EQ(table.methods().size(), 8u);
+TEST(TradeTableTest, ShippedTablesAreWhole) {
+    for (const char* name : {"llvmpipe", "unknown"}) {
+        const TradeTable table = readTradeTable(fmt::format("{}/trade/{}.json", DIOPTRE_CONFIG, name));
+        EXPECT_EQ(table.methods().size(), 8u) << name;
+        for (const TradeTable::Row& row : table.rows) EXPECT_EQ(row.entries.size(), table.views.size()) << name;
+    }
 }
 
 TEST(TradeTableTest, RefusalsNameFileAndElement) {
