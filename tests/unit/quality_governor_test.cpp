@@ -298,26 +298,28 @@ TEST_F(QuietTest, AMissedFrameTakesSamplesButOneAloneNoMethod) {
 }
 
 TEST_F(QuietTest, FadesWhereBothPlansFit) {
-    situation.budgetMs = 25.0;  // of 40 frames a second
-    factor = 0.02;
-    double weight = 0.0, ended = 0.0;
+    factor = 0.02;  // of a machine that draws tens of frames a second
     int faded = 0;
-    for (int i = 0; i < 200; ++i) {
-        const double now = situation.now;
-        const Decision d = frame();
-        if (!d.fade) continue;
-        ++faded;
-        EXPECT_GT(d.fade->weight, weight);
-        EXPECT_LE(d.fade->weight, 1.0);
-        EXPECT_LE(d.foreseenMs, 0.91 * situation.budgetMs);
-        const ExpectedErrors errors(table(), situation.view);
-        EXPECT_LE(errors.of(d.plan), errors.of(d.fade->from)) << planText(d.plan);
-        if (d.change == PlanChange::up) ended = now + 0.1;
-        EXPECT_LT(now, ended);
-        weight = d.fade->weight;
-        if (weight > 0.7) weight = 0.0;
+    for (const double budget : {8.0, 12.0, 15.0, 20.0, 25.0, 32.0}) {
+        governor = Governor(table());
+        situation.budgetMs = budget;
+        double weight = 0.0, began = 0.0;
+        for (int i = 0; i < 300; ++i) {
+            const double now = situation.now;
+            const Decision d = frame();
+            if (d.change == PlanChange::up) weight = 0.0, began = now;
+            if (!d.fade) continue;
+            ++faded;
+            EXPECT_GT(d.fade->weight, weight);
+            EXPECT_LE(d.fade->weight, 1.0);
+            EXPECT_LE(d.foreseenMs, 0.91 * budget);
+            EXPECT_LT(now, began + 0.1);
+            const ExpectedErrors errors(table(), situation.view);
+            EXPECT_LE(errors.of(d.plan), errors.of(d.fade->from)) << budget << " ms, " << planText(d.plan);
+            weight = d.fade->weight;
+        }
     }
-    EXPECT_GE(faded, 3);
+    EXPECT_GE(faded, 10);
 }
 
 // mipmap with msaa 4 looks too dear, and is not.
