@@ -44,25 +44,6 @@ std::string_view dynamicsName(DynamicsChoice choice) {
     return "natural";
 }
 
-int samplesOf(const RenderSettings& settings) {
-    return settings.samples.value_or(defaultSamples(settings.technique));
-}
-
-/// "mipmap, msaa 4": the technique with the dials that it has.
-std::string planText(const RenderSettings& settings) {
-    switch (settings.technique) {
-        case TechniqueChoice::pinhole:
-            return fmt::format("pinhole, msaa {}", settings.msaa);
-        case TechniqueChoice::mipmap:
-            return fmt::format("mipmap, msaa {}", settings.msaa);
-        case TechniqueChoice::accumulate:
-            return fmt::format("accumulate, {} samples, {} sub-samples each", samplesOf(settings), settings.subsamples);
-        case TechniqueChoice::reference:
-            return fmt::format("reference, {} samples", samplesOf(settings));
-    }
-    return "";
-}
-
 LensConditions conditionsOf(const LensSettings& settings) {
     LensConditions conditions;
     if (settings.apertureMm) conditions.apertureDiameter = Metres(*settings.apertureMm * 1e-3);
@@ -145,7 +126,7 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     if (settings.focus.focus.mode == FocusMode::metres) checkFocus(preset_, settings.focus.focus.metres);
     for (int i = 0; i < (drawsBothEyes(settings.view) ? 2 : 1); ++i)
         eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
-    report_.plan = planText(settings.render);
+    report_.plan = planText(planOf(settings.render));
     if (const double brightest = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
         brightest > kMostRadiance)
         reportCut(fmt::format("a material emits {:.3g} at this exposure", brightest));
@@ -256,10 +237,10 @@ const FrameReport& FrameMaker::make(const Input& input) {
     // Technique, once per eye, same plan for both
     const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
     for (EyePicture& eye : eyes_)
-        eye.picture = &eye.technique->draw({scene_, eye.view, report_.lens.lens, exposure, settings_.render.msaa,
-                                            settings_.render.show, report_.passes, samplesOf(settings_.render),
-                                            settings_.render.subsamples, 0,
-                                            input.budgetMilliseconds / static_cast<double>(eyes_.size())});
+        eye.picture = &eye.technique->draw(
+            {scene_, eye.view, report_.lens.lens, exposure, settings_.render.msaa, settings_.render.show,
+             report_.passes, settings_.render.samples.value_or(defaultSamples(settings_.render.technique)),
+             settings_.render.subsamples, 0, input.budgetMilliseconds / static_cast<double>(eyes_.size())});
     composed_ = &compositor_.compose(composition(), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;

@@ -75,15 +75,14 @@ Measuring::Measuring(MeasureRequest request) : request_(std::move(request)), pic
         all_.rows = std::move(before.rows);
     }
 
-    dials_ = measuredDials();
-    std::erase_if(dials_, [&](const TechniqueDials& d) {
-        return d.samples.value_or(0) > kMostSamples * request_.samplesPerHalf;
-    });
+    plans_ = measuredPlans();
+    std::erase_if(plans_,
+                  [&](const Plan& plan) { return plan.samples.value_or(0) > kMostSamples * request_.samplesPerHalf; });
     constexpr std::size_t kViews = std::size(kMeasuredBlurs) * std::size(kMeasuredFocuses);
-    rowsWanted_ = request_.scenes * request_.sizes.size() * kViews * dials_.size();
+    rowsWanted_ = request_.scenes * request_.sizes.size() * kViews * plans_.size();
     double workOfAView = kReferenceWork + 2.0 * request_.samplesPerHalf;
-    for (const TechniqueDials& d : dials_) {
-        work_.push_back(kRowWork + (d.samples ? kSampledFramesOfARow * *d.samples : kFramesOfARow));
+    for (const Plan& plan : plans_) {
+        work_.push_back(kRowWork + (plan.samples ? kSampledFramesOfARow * *plan.samples : kFramesOfARow));
         workOfAView += work_.back();
     }
     for (const PictureSize& size : request_.sizes)
@@ -158,10 +157,10 @@ bool Measuring::measureView(const Subject& given, MeasuredView view) {
     if (const MeasuredView* before = all_.view(view.key); before && before->sameAs(view)) view = *before;
     keep(view);
     std::vector<std::size_t> missing;
-    for (std::size_t i = 0; i < dials_.size(); ++i) {
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
         MeasuredRow wanted;
-        wanted.technique = techniqueName(dials_[i].technique);
-        for (const auto& [name, value] : dials_[i].dials()) wanted.dials.emplace(name, value);
+        wanted.technique = techniqueName(plans_[i].technique);
+        for (const auto& [name, value] : plans_[i].dials()) wanted.dials.emplace(name, value);
         if (!all_.row(view.key, wanted.key())) {
             missing.push_back(i);
         } else {
@@ -199,13 +198,13 @@ bool Measuring::measureView(const Subject& given, MeasuredView view) {
     return true;
 }
 
-bool Measuring::measureRow(const Subject& subject, const MeasuredView& view, std::size_t dialIndex) {
-    const TechniqueDials& dials = dials_[dialIndex];
+bool Measuring::measureRow(const Subject& subject, const MeasuredView& view, std::size_t planIndex) {
+    const Plan& plan = plans_[planIndex];
     // Techniques that take samples take others than the reference did: its error would look smaller than it is.
     auto measured =
         measureFrames({subject.scene, subject.view, subject.lens, static_cast<float>(std::exp2(request_.exposureEv)),
                        2 * request_.samplesPerHalf, request_.rowMilliseconds},
-                      dials, request_.stopped);
+                      plan, request_.stopped);
     if (!measured) return false;
     MeasuredRow& row = measured->row;
     row.view = view.key;
@@ -223,7 +222,7 @@ bool Measuring::measureRow(const Subject& subject, const MeasuredView& view, std
     writeTables();
     ++rowsDone_;
     ++rowsAdded_;
-    progressed(work_[dialIndex] * pixelsOf({view.width, view.height}), fmt::format("{}: {}", view.key, row.key()));
+    progressed(work_[planIndex] * pixelsOf({view.width, view.height}), fmt::format("{}: {}", view.key, row.key()));
     return true;
 }
 

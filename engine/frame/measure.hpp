@@ -54,7 +54,7 @@ class Measuring {
     struct Subject;
 
     bool measureView(const Subject& subject, MeasuredView view);
-    bool measureRow(const Subject& subject, const MeasuredView& view, std::size_t dialIndex);
+    bool measureRow(const Subject& subject, const MeasuredView& view, std::size_t planIndex);
     void keep(const MeasuredView& view);
     void writeTables() const;
     void progressed(double work, const std::string& doing);
@@ -62,8 +62,8 @@ class Measuring {
     MeasureRequest request_;
     Measurements all_;
     PictureFolder pictures_;
-    std::vector<TechniqueDials> dials_;
-    std::vector<double> work_;  // of each setting of dials, in drawings of the scene
+    std::vector<Plan> plans_;
+    std::vector<double> work_;  // of each plan, in drawings of the scene
     std::size_t rowsWanted_ = 0, rowsDone_ = 0, rowsAdded_ = 0;
     double workDone_ = 0.0, workSkipped_ = 0.0, workTotal_ = 0.0;  // drawings × pixels
     double start_ = 0.0;                                           // milliseconds

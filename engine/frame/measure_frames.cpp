@@ -83,18 +83,18 @@ VergenceStatistics visibleVergences(const GpuScene& scene, const View& view) {
     return VergenceStatistics(std::move(vergences));
 }
 
-std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const TechniqueDials& dials,
+std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const Plan& plan,
                                              const std::function<bool()>& stopped) {
     forgetPeak();
     MeasuredPicture result;
     MeasuredRow& row = result.row;
-    row.technique = techniqueName(dials.technique);
-    for (const auto& [name, value] : dials.dials()) row.dials.emplace(name, value);
+    row.technique = techniqueName(plan.technique);
+    for (const auto& [name, value] : plan.dials()) row.dials.emplace(name, value);
 
-    const auto technique = makeTechnique(dials.technique);
+    const auto technique = makeTechnique(plan.technique);
     PassLog log;
     EyeFrame frame{request.scene, request.view, request.lens, request.exposure, 0, {}, log};
-    dials.apply(frame);
+    apply(plan, frame);
     frame.firstSample = request.firstSample;
 
     // Compiles what the driver compiles at first use

@@ -31,7 +31,7 @@ struct MeasuredPicture {
 
 /// Draws with a technique of its own, made and freed here: two to nine warm frames, then three that are timed by stage;
 /// slow frames serve for both. None where `stopped` said so between two frames.
-std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const TechniqueDials& dials,
+std::optional<MeasuredPicture> measureFrames(const FrameRequest& request, const Plan& plan,
                                              const std::function<bool()>& stopped);
 
 }  // namespace dioptre

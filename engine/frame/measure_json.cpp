@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "frame/measure_lens.hpp"
 #include "frame/measure_rows.hpp"
 
 namespace dioptre {
@@ -15,7 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchema = 1;
+constexpr int kSchema = 1;       // of trade.json
+constexpr int kTableSchema = 2;  // of the governor's table
 
 /// Infinity is null in JSON.
 Json number(double value) {
@@ -183,17 +185,16 @@ namespace {
 
 /// Means over rows of one plan.
 struct Means {
-    double ms = 0.0, overPinhole = 0.0, psnr = 0.0, ssim = 0.0, flip = 0.0, coc = 0.0;
+    double ms = 0.0, overPinhole = 0.0, psnr = 0.0, ssim = 0.0, flip = 0.0;
     int count = 0;
 
-    void add(const MeasuredRow& r, const MeasuredView& v, double pinholeMs) {
+    void add(const MeasuredRow& r, double pinholeMs) {
         ms += r.time.median;
         overPinhole += r.time.median - pinholeMs;
         // An equal picture would be infinitely good: 100 dB is beyond what 16 bits can tell.
         psnr += std::min(r.error.psnr, 100.0);
         ssim += r.error.ssim;
         flip += r.error.flip;
-        coc += v.meanCocPx;
         ++count;
     }
     void put(Json& to) const {
@@ -206,56 +207,93 @@ struct Means {
     }
 };
 
-double cheapestPinhole(const Measurements& all, const std::string& view) {
-    double least = std::numeric_limits<double>::infinity();
+const MeasuredRow* cheapestPinhole(const Measurements& all, const std::string& view) {
+    const MeasuredRow* cheapest = nullptr;
     for (const MeasuredRow& r : all.rows)
-        if (r.view == view && r.technique == "pinhole") least = std::min(least, r.time.median);
-    return std::isfinite(least) ? least : 0.0;
+        if (r.view == view && r.technique == "pinhole" && (!cheapest || r.time.median < cheapest->time.median))
+            cheapest = &r;
+    return cheapest;
+}
+
+/// What prices and errors of a view hang on.
+Json classOf(const Measurements& all, const MeasuredView& v) {
+    const MeasuredRow* pinhole = cheapestPinhole(all, v.key);
+    const auto* focus = std::find_if(std::begin(kMeasuredFocuses), std::end(kMeasuredFocuses),
+                                     [&](const MeasuredFocus& f) { return f.name == v.focus; });
+    return {{"key", v.key},
+            {"triangles", pinhole ? pinhole->triangles : v.triangles},
+            {"width", v.width},
+            {"height", v.height},
+            {"mean_coc_px", v.meanCocPx},
+            {"nearest_coc_px", v.nearestCocPx},
+            {"farthest_coc_px", v.farthestCocPx},
+            {"behind_share", focus == std::end(kMeasuredFocuses) ? 0.5 : focus->share}};
+}
+
+/// A line for each view and each entry of a plan, for people to read and compare.
+std::string tableText(const Json& table) {
+    const auto lines = [](const Json& list, std::string_view indent) {
+        std::string text;
+        for (const Json& element : list)
+            text += fmt::format("{}\n{}{}", text.empty() ? "" : ",", indent, element.dump());
+        return text;
+    };
+    std::string text = "{\n";
+    for (const auto& [key, value] : table.items()) {
+        if (key == "views") {
+            text += fmt::format(" \"views\": [{}\n ],\n", lines(value, "  "));
+        } else if (key == "plans") {
+            std::string plans;
+            for (Json plan : value) {
+                const std::string entries = lines(plan["entries"], "    ");
+                plan.erase("entries");
+                std::string head = plan.dump();
+                head.pop_back();
+                plans += fmt::format("{}\n  {},\"entries\":[{}\n  ]}}", plans.empty() ? "" : ",", head, entries);
+            }
+            text += fmt::format(" \"plans\": [{}\n ],\n", plans);
+        } else {
+            text += fmt::format(" \"{}\": {}{}\n", key, value.dump(), key == "front" ? "" : ",");
+        }
+    }
+    return text + "}\n";
 }
 
 }  // namespace
 
 std::string governorTable(const Measurements& all) {
-    struct Plan {
+    struct Planned {
         const MeasuredRow* first = nullptr;
         Means means;
-        std::vector<std::pair<const MeasuredView*, Means>> entries;  // one per size, blur and focus
+        Json entries = Json::array();
     };
-    std::vector<Plan> plans;
+    std::vector<Planned> plans;
     for (const MeasuredRow& r : all.rows) {
-        const MeasuredView* v = all.view(r.view);
-        if (!v) continue;
-        auto plan = std::find_if(plans.begin(), plans.end(), [&](const Plan& p) { return p.first->key() == r.key(); });
-        if (plan == plans.end()) plan = plans.insert(plans.end(), Plan{&r, {}, {}});
-        auto entry = std::find_if(plan->entries.begin(), plan->entries.end(), [&](const auto& e) {
-            return e.first->width == v->width && e.first->height == v->height && e.first->blur == v->blur &&
-                   e.first->focus == v->focus;
-        });
-        if (entry == plan->entries.end()) entry = plan->entries.insert(plan->entries.end(), {v, Means{}});
-        const double pinhole = cheapestPinhole(all, r.view);
-        plan->means.add(r, *v, pinhole);
-        entry->second.add(r, *v, pinhole);
+        if (!all.view(r.view)) continue;
+        auto plan = std::find_if(plans.begin(), plans.end(), [&](const auto& p) { return p.first->key() == r.key(); });
+        if (plan == plans.end()) plan = plans.insert(plans.end(), Planned{&r, {}, Json::array()});
+        const MeasuredRow* pinhole = cheapestPinhole(all, r.view);
+        Means one;
+        one.add(r, pinhole ? pinhole->time.median : 0.0);
+        plan->means.add(r, pinhole ? pinhole->time.median : 0.0);
+        Json entry = {{"view", r.view}};
+        one.put(entry);
+        plan->entries.push_back(entry);
     }
     const MeasuredWith& w = all.with;
-    Json j = {{"schema", kSchema}, {"renderer", w.renderer}, {"version", w.version},  {"commit", w.commit},
-              {"cpu", w.cpu},      {"date", w.date},         {"plans", Json::array()}};
+    Json j = {{"schema", kTableSchema}, {"renderer", w.renderer}, {"version", w.version},   {"commit", w.commit},
+              {"cpu", w.cpu},           {"date", w.date},         {"views", Json::array()}, {"plans", Json::array()}};
+    for (const MeasuredView& v : all.views) j["views"].push_back(classOf(all, v));
     std::vector<TradePoint> points;
-    for (const Plan& plan : plans) {
+    for (const Planned& plan : plans) {
         Json p = {{"technique", plan.first->technique}, {"dials", plan.first->dials}};
         plan.means.put(p);
         points.push_back({p["ms"].get<double>(), 1.0 - p["ssim"].get<double>()});
-        p["entries"] = Json::array();
-        for (const auto& [v, means] : plan.entries) {
-            Json e = {{"width", v->width}, {"height", v->height}, {"blur", v->blur}, {"focus", v->focus}};
-            e["mean_coc_px"] = means.coc / means.count;
-            e["scenes"] = means.count;
-            means.put(e);
-            p["entries"].push_back(e);
-        }
+        p["entries"] = plan.entries;
         j["plans"].push_back(p);
     }
     j["front"] = paretoFront(points);
-    return j.dump(1) + "\n";
+    return tableText(j);
 }
 
 }  // namespace dioptre

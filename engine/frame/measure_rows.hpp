@@ -128,12 +128,13 @@ Measurements parseMeasurements(std::string_view json, std::string_view where);
 
 std::string measurementsCsv(const Measurements& all);
 
-/// The table for the governor, config/trade/<renderer>.json. For every size, blur, focus and plan the means over the
-/// scenes:
+/// The table for the governor, config/trade/<renderer>.json, which engine/quality/trade_table.hpp reads, schema 2:
 ///   schema, renderer, version, commit, cpu, date
-///   plans[]   technique, dials, ms, ms_over_pinhole (to the cheapest pinhole of the same view), psnr_db, ssim, flip
-///             over everything; entries[] the same for each width, height, blur, focus, with mean_coc_px and scenes
-///             (how many)
+///   views[]   key, triangles (that a pinhole draws), width, height, mean_coc_px, nearest_coc_px, farthest_coc_px (as in
+///             trade.json), behind_share (of the visible pixels: what lies behind focus)
+///   plans[]   technique, dials, ms, ms_over_pinhole (to the cheapest pinhole of the same view), psnr_db, ssim, flip:
+///             means over everything; entries[] the same for each view, by its key
+///             psnr_db: equal pictures count as 100
 ///   front[]   indices into plans, cheapest first: each is closer to the reference, by SSIM, than all before it
 std::string governorTable(const Measurements& all);
 

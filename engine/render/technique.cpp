@@ -21,50 +21,14 @@ std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice) {
     return nullptr;
 }
 
-std::string_view techniqueName(TechniqueChoice choice) {
-    switch (choice) {
-        case TechniqueChoice::pinhole:
-            return "pinhole";
-        case TechniqueChoice::mipmap:
-            return "mipmap";
-        case TechniqueChoice::accumulate:
-            return "accumulate";
-        case TechniqueChoice::reference:
-            return "reference";
-    }
-    return "";
+void apply(const Plan& plan, EyeFrame& frame) {
+    if (plan.msaa) frame.msaa = *plan.msaa;
+    if (plan.samples) frame.samples = *plan.samples;
+    if (plan.subsamples) frame.subsamples = *plan.subsamples;
 }
 
-int defaultSamples(TechniqueChoice choice) {
-    // As published: [HA90] as Lee, Eisemann, Seidel 2009 use it, [JKLL13]
-    constexpr int kReference = 512, kAccumulate = 32;
-    return choice == TechniqueChoice::accumulate ? kAccumulate : kReference;
-}
-
-bool usesMsaa(TechniqueChoice choice) {
-    return choice == TechniqueChoice::pinhole || choice == TechniqueChoice::mipmap;
-}
-
-bool usesLevels(TechniqueChoice choice) {
-    return choice == TechniqueChoice::accumulate;
-}
-
-std::vector<std::pair<std::string_view, int>> TechniqueDials::dials() const {
-    std::vector<std::pair<std::string_view, int>> list;
-    if (msaa) list.emplace_back("msaa", *msaa);
-    if (samples) list.emplace_back("samples", *samples);
-    if (subsamples) list.emplace_back("subsamples", *subsamples);
-    return list;
-}
-
-void TechniqueDials::apply(EyeFrame& frame) const {
-    if (msaa) frame.msaa = *msaa;
-    if (samples) frame.samples = *samples;
-    if (subsamples) frame.subsamples = *subsamples;
-}
-
-std::vector<TechniqueDials> measuredDials() {
-    std::vector<TechniqueDials> all;
+std::vector<Plan> measuredPlans() {
+    std::vector<Plan> all;
     for (const TechniqueChoice choice : {TechniqueChoice::pinhole, TechniqueChoice::mipmap})
         for (const int msaa : {0, 4}) all.push_back({choice, msaa, {}, {}});
     for (const auto& [samples, subsamples] : {std::pair(8, 8), {16, 4}, {32, 4}, {64, 0}})

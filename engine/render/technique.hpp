@@ -3,9 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -13,6 +10,7 @@
 #include "gl/pass.hpp"
 #include "optics/lens.hpp"
 #include "optics/view.hpp"
+#include "quality/plan.hpp"
 #include "render/gpu_scene.hpp"
 
 namespace dioptre {
@@ -63,28 +61,11 @@ inline constexpr TechniqueChoice kTechniques[] = {TechniqueChoice::pinhole, Tech
 /// One instance per eye: it keeps that eye's buffers.
 std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
 
-/// "mipmap"
-std::string_view techniqueName(TechniqueChoice choice);
-
-/// Points of the lens that a technique averages where nobody says how many.
-int defaultSamples(TechniqueChoice choice);
-/// Whether antialiasing by msaa is its own choice.
-bool usesMsaa(TechniqueChoice choice);
-/// Whether it draws levels of detail (GpuScene::addLevel).
-bool usesLevels(TechniqueChoice choice);
-
-/// A technique and the values of its dials; a dial that it does not have is empty.
-struct TechniqueDials {
-    TechniqueChoice technique = TechniqueChoice::pinhole;
-    std::optional<int> msaa, samples, subsamples;
-
-    /// Those it has, {"msaa", 4}.
-    std::vector<std::pair<std::string_view, int>> dials() const;
-    void apply(EyeFrame& frame) const;
-};
+/// Sets the dials that the plan has. Its size is the view's: whoever makes the frame shrinks it.
+void apply(const Plan& plan, EyeFrame& frame);
 
 /// What is worth measuring of each technique, cheapest first within one.
-std::vector<TechniqueDials> measuredDials();
+std::vector<Plan> measuredPlans();
 
 /// CoC transform of an eye's picture: pixel radii along x (pixels are square but for half-width displays).
 CocTransform cocTransform(const EyeFrame& frame);

@@ -13,6 +13,7 @@
 #include "frame/measure_lens.hpp"
 #include "frame/measure_pictures.hpp"
 #include "frame/measure_rows.hpp"
+#include "quality/trade_table.hpp"
 
 namespace dioptre {
 namespace {
@@ -135,7 +136,7 @@ MeasuredRow someRow(const std::string& technique, double milliseconds, double ss
     MeasuredRow r;
     r.view = someView().key;
     r.technique = technique;
-    if (technique != "pinhole") r.dials = {{"msaa", 4}};
+    r.dials = {{"msaa", technique == "pinhole" ? 0 : 4}};
     r.time = {milliseconds, milliseconds * 0.9, milliseconds * 1.2, 9};
     r.stages = {{"geometry", 3.0, 1}, {"blur", 1.5, 2}};
     r.skipped = {{"reach", "nothing is in front"}};
@@ -252,10 +253,26 @@ TEST(MeasureTableTest, TheGovernorsTableHasMeansAndTheFront) {
     EXPECT_DOUBLE_EQ(mipmap.at("ms").get<double>(), 25.0);
     EXPECT_DOUBLE_EQ(mipmap.at("ms_over_pinhole").get<double>(), 10.0);
     EXPECT_EQ(mipmap.at("psnr_db"), 100.0);
-    ASSERT_EQ(mipmap.at("entries").size(), 1u);
-    EXPECT_EQ(mipmap["entries"][0].at("scenes"), 2);
-    EXPECT_DOUBLE_EQ(mipmap["entries"][0].at("mean_coc_px").get<double>(), 8.0);
+    ASSERT_EQ(mipmap.at("entries").size(), 2u);
+    EXPECT_EQ(mipmap["entries"][1].at("view"), "garden-640x480-paper-near");
+    EXPECT_DOUBLE_EQ(mipmap["entries"][1].at("ms").get<double>(), 30.0);
+    ASSERT_EQ(table.at("views").size(), 2u);
+    EXPECT_DOUBLE_EQ(table["views"][0].at("mean_coc_px").get<double>(), 8.0);
+    EXPECT_DOUBLE_EQ(table["views"][0].at("behind_share").get<double>(), 0.85);
     EXPECT_EQ(table.at("front"), nlohmann::json({0, 1}));
+}
+
+TEST(MeasureTableTest, TheGovernorReadsItsTable) {
+    Measurements all = some();
+    all.rows.pop_back();  // a technique that does not exist
+    const TradeTable table = parseTradeTable(governorTable(all), "llvmpipe.json");
+    EXPECT_EQ(table.renderer, "llvmpipe (LLVM)");
+    ASSERT_EQ(table.views.size(), 1u);
+    EXPECT_EQ(table.views[0], (ViewClass{12.0, 640.0 * 480.0, 8.0, 40.25, 0.85, 1}));
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.rows[1].plan, (Plan{TechniqueChoice::mipmap, 4, {}, {}}));
+    EXPECT_DOUBLE_EQ(table.rows[1].entries[0].milliseconds, 20.0);
+    EXPECT_DOUBLE_EQ(table.rows[1].entries[0].error, 1.0 - 0.95);
 }
 
 TEST(MeasurePicturesTest, Base64) {

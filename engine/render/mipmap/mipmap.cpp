@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "quality/requirements.hpp"
 #include "shaders/shared/mipmap.h"
 
 namespace dioptre {
@@ -84,10 +85,7 @@ void Mipmap::buildPyramid(const Blur& blur, PassLog& log) {
         setLayers(passes.split.program(), blur.coc, blur.base);
         passes.split.draw();
     }
-    // As deep as the largest blur needs; with a foreground to the end: its largest radius is at the top. Never one
-    // level alone: some drivers then switch to a cheaper fetch, and the price would jump in the middle of a focus pull.
-    const int deepest = static_cast<int>(mipmap::tapLevel(std::max(blur.coc.bias, mipmap::kFrontComplete))) + 1;
-    const int levels = blur.front ? levelCount_ : std::min(levelCount_, std::max(deepest, 2));
+    const int levels = pyramidLevels(blur.coc.bias, blur.front, levelCount_);
     if (levels < levelCount_) log.skip("pyramid's coarsest levels", "the largest blur does not read them");
     PassScope scope(log, "pyramid");
     const auto readLevels = [&](int first, int last) {

@@ -1,0 +1,57 @@
+// What the methods of drawing offer in one view for a given price.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "quality/price_model.hpp"
+#include "quality/requirements.hpp"
+#include "quality/trade_table.hpp"
+
+namespace dioptre {
+
+/// Fewer samples than that are ghosts, not blur.
+inline constexpr int kLeastSamples = 4;
+inline constexpr int kMostSamples = 4096;
+
+struct Offer {
+    Plan plan;
+    double milliseconds = 0.0;
+    double error = 1.0;  // expected 1 - SSIM
+};
+
+/// One view, its prices and errors.
+class Market {
+  public:
+    /// All outlive it.
+    Market(const PriceModel& prices, const ExpectedErrors& errors, const ViewClass& view,
+           const Requirements& requirements);
+
+    /// Methods that may draw this view: where nothing is blurred, pinholes.
+    std::vector<Plan> methods() const;
+    bool allows(const Plan& plan) const;
+
+    Offer offer(const Plan& plan) const;
+    /// The method with the most samples of which `margin` times the price is at most `limit` ms; none where the least
+    /// are too dear.
+    std::optional<Offer> within(const Plan& method, double limit, double margin = 1.0) const;
+    /// Of what fits even if it is as dear as its price is unsure, the one with the least error; none where nothing does.
+    std::optional<Offer> safest(double limit) const;
+    /// What costs the least, whatever that is.
+    Offer cheapest() const;
+    /// The cheapest at full size that gives the view what it requires: a blur where there is one.
+    Plan adequate() const;
+
+    /// exp(standard deviation) of the price.
+    double unsure(const Plan& method) const;
+    /// From so many samples on the reference is as close as the plan.
+    int samplesToReach(const Plan& plan) const;
+
+  private:
+    const PriceModel& prices_;
+    const ExpectedErrors& errors_;
+    const ViewClass& view_;
+    const Requirements& requirements_;
+};
+
+}  // namespace dioptre

@@ -1,0 +1,55 @@
+// A plan: a technique and the values of its dials. Both eyes of a frame follow the same one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/settings.hpp"
+
+namespace dioptre {
+
+/// A dial that the technique does not have is empty.
+struct Plan {
+    TechniqueChoice technique = TechniqueChoice::pinhole;
+    std::optional<int> msaa;        // samples per pixel, 0 or 4
+    std::optional<int> samples;     // points of the lens, >= 1
+    std::optional<int> subsamples;  // more points of the lens for each of them, on average; 0..16
+    int eighths = 8;                // 4..8: width and height of what is drawn, in eighths of the picture's
+
+    bool operator==(const Plan&) const = default;
+
+    /// Those it has, {"msaa", 4}.
+    std::vector<std::pair<std::string_view, int>> dials() const;
+};
+
+/// "mipmap"
+std::string_view techniqueName(TechniqueChoice choice);
+std::optional<TechniqueChoice> techniqueNamed(std::string_view name);
+
+/// Points of the lens that a technique averages where nobody says how many.
+int defaultSamples(TechniqueChoice choice);
+/// Whether antialiasing by msaa is its own choice.
+bool usesMsaa(TechniqueChoice choice);
+/// Whether it averages pictures through points of the lens, as many as the dial `samples` says.
+bool usesSamples(TechniqueChoice choice);
+/// Whether it draws levels of detail.
+bool usesLevels(TechniqueChoice choice);
+
+inline constexpr int kLeastEighths = 4;
+/// Whether a plan may be drawn smaller: where it is what there is for the least money.
+bool maySize(const Plan& plan);
+
+/// The plan that settings name.
+Plan planOf(const RenderSettings& settings);
+
+/// "mipmap, msaa 4"; "accumulate, 32 samples, 4 sub-samples each"; "pinhole, msaa 0, 6/8 size"
+std::string planText(const Plan& plan);
+
+/// The plan without its number of samples. Changes within a method are small steps (a prefix of one sequence of
+/// samples), changes of the method are seen.
+Plan methodOf(Plan plan);
+
+}  // namespace dioptre

@@ -1,0 +1,16 @@
+// What prices and errors hang on, of what a frame shows.
+#pragma once
+
+namespace dioptre {
+
+struct ViewClass {
+    double triangles = 0.0;                      // of what one eye sees, at full detail
+    double pixels = 0.0;                         // of one eye's picture
+    double meanCocPx = 0.0, largestCocPx = 0.0;  // DIAMETERS of circles of confusion, >= 0, of what is seen
+    double behindShare = 0.5;                    // of the picture, 0..1: what lies behind focus
+    int eyes = 1;                                // pictures in a frame
+
+    bool operator==(const ViewClass&) const = default;
+};
+
+}  // namespace dioptre

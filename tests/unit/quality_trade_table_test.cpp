@@ -1,0 +1,147 @@
+// The measured table: what is read, what is refused, what it lets expect.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "quality/trade_table.hpp"
+
+namespace dioptre {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kFile = DIOPTRE_TEST_DATA "/trade_small.json";
+
+const TradeTable& small() {
+    static const TradeTable table = readTradeTable(kFile);
+    return table;
+}
+
+Json smallJson() {
+    return Json::parse(readFile(kFile, 1 << 20));
+}
+
+TEST(TradeTableTest, ReadsWhatWasMeasured) {
+    EXPECT_EQ(small().views.size(), 6u);
+    EXPECT_EQ(small().rows.size(), 11u);
+    EXPECT_EQ(small().methods().size(), 8u) << "reference at three numbers of samples, accumulate with S = 4 at two";
+    const TradeTable::Row& row = small().rows[3];
+    EXPECT_EQ(row.plan, (Plan{TechniqueChoice::mipmap, 4, {}, {}}));
+    EXPECT_EQ(row.entries.size(), 6u);
+    EXPECT_EQ(small().views[0].pixels, 640.0 * 480.0);
+    EXPECT_GT(small().views[0].largestCocPx, small().views[0].meanCocPx);
+}
+
+TEST(TradeTableTest, ShippedTablesAreWhole) {
+    for (const char* name : {"llvmpipe", "unknown"}) {
+        const TradeTable table = readTradeTable(fmt::format("{}/trade/{}.json", DIOPTRE_CONFIG, name));
+        EXPECT_EQ(table.methods().size(), 8u) << name;
+        for (const TradeTable::Row& row : table.rows) EXPECT_EQ(row.entries.size(), table.views.size()) << name;
+    }
+}
+
+TEST(TradeTableTest, RefusalsNameFileAndElement) {
+    const auto expectRefused = [](const std::string& text, const char* what) {
+        try {
+            parseTradeTable(text, "t.json");
+            ADD_FAILURE() << "taken, " << what;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("t.json: "));
+            EXPECT_THAT(error.what(), HasSubstr(what));
+        }
+    };
+    const auto changed = [](const char* pointer, const Json& value) {
+        Json json = smallJson();
+        json[Json::json_pointer(pointer)] = value;
+        return json.dump();
+    };
+    expectRefused("", "broken JSON");
+    expectRefused("[1]", "t.json: '[1]', must be an object");
+    expectRefused(changed("/schema", 1), "schema: '1', must be");
+    expectRefused(changed("/views", Json::array()), "views: '[]', must be a list");
+    expectRefused(changed("/views/2/width", 0), "views[2].width: '0', must be a number from 1");
+    expectRefused(changed("/views/2/key", 7), "views[2].key: '7', must be text");
+    expectRefused(changed("/views/2/triangles", "many"), "views[2].triangles");
+    expectRefused(changed("/views/2/behind_share", 1.1), "views[2].behind_share");
+    expectRefused(changed("/views/1/key", smallJson()["views"][0]["key"]), "views[1].key");
+    expectRefused(changed("/plans/0/technique", "magic"), "plans[0].technique: '\"magic\"', must be a technique");
+    expectRefused(changed("/plans/0/dials/msaa", 2), "plans[0].dials.msaa: '2', must be 0 or 4");
+    expectRefused(changed("/plans/1/dials/msaa", 0), "plans[1].dials");
+    expectRefused(changed("/plans/4/dials/samples", 0.5), "plans[4].dials.samples");
+    expectRefused(changed("/plans/4/entries/1/ms", 0), "plans[4].entries[1].ms");
+    expectRefused(changed("/plans/4/entries/1/ms", nullptr), "plans[4].entries[1].ms");
+    expectRefused(changed("/plans/4/entries/1/ssim", 1.5), "plans[4].entries[1].ssim: '1.5', must be a number from -1");
+    expectRefused(changed("/plans/4/entries/1/view", "x"), "plans[4].entries[1].view: '\"x\"', must be a key of views");
+    Json without = smallJson();
+    without["plans"][3]["entries"][2].erase("ssim");
+    expectRefused(without.dump(), "plans[3].entries[2]: key 'ssim' is missing");
+    EXPECT_THROW(readTradeTable("/no/such/file.json"), InputError);
+}
+
+TEST(ExpectedErrorsTest, OfAMeasuredViewAreAboutThoseMeasured) {
+    for (std::size_t view = 0; view < small().views.size(); ++view) {
+        const ExpectedErrors errors(small(), small().views[view]);
+        for (const TradeTable::Row& row : small().rows) {
+            const double measured = row.entries[view].error;
+            EXPECT_NEAR(errors.of(row.plan) / measured, 1.0, 0.05) << view << " " << planText(row.plan);
+        }
+    }
+}
+
+TEST(ExpectedErrorsTest, FallWithTheSamples) {
+    for (const ViewClass& view : small().views) {
+        const ExpectedErrors errors(small(), view);
+        for (const Plan& method : small().methods()) {
+            if (!usesSamples(method.technique)) continue;
+            double before = 1.0;
+            for (int n = 1; n <= 4096; n = n + 1 + n / 8) {
+                Plan plan = method;
+                plan.samples = n;
+                const double error = errors.of(plan);
+                EXPECT_LE(error, before) << planText(plan);
+                EXPECT_GT(error, 0.0) << planText(plan);
+                before = error;
+            }
+        }
+    }
+}
+
+TEST(ExpectedErrorsTest, BetweenMeasuredSamplesAreStraightInTheLogarithms) {
+    const ViewClass& view = small().views[1];
+    const ExpectedErrors errors(small(), view);
+    const auto of = [&](int n) { return errors.of({TechniqueChoice::reference, {}, n, {}}); };
+    EXPECT_NEAR(of(8), std::sqrt(of(4) * of(16)), 1e-9);
+    EXPECT_NEAR(of(32), std::sqrt(of(16) * of(64)), 1e-9);
+    EXPECT_NEAR(of(256) / of(64), of(64) / of(16), 1e-9) << "goes on beyond";
+    const auto slope = std::log(of(64) / of(4)) / std::log(16.0);
+    const auto once = [&](int n) { return errors.of({TechniqueChoice::accumulate, {}, n, 8}); };
+    EXPECT_NEAR(std::log(once(16) / once(8)) / std::log(2.0), slope, 1e-9) << "measured at one N";
+}
+
+TEST(ExpectedErrorsTest, ChangeGraduallyFromViewToView) {
+    ViewClass view = small().views[0];
+    view.meanCocPx = 0.1;
+    const Plan plan{TechniqueChoice::pinhole, 0, {}, {}};
+    double before = ExpectedErrors(small(), view).of(plan);
+    for (; view.meanCocPx < 100.0; view.meanCocPx *= 1.02) {
+        const double now = ExpectedErrors(small(), view).of(plan);
+        EXPECT_NEAR(now / before, 1.0, 0.12) << view.meanCocPx;
+        before = now;
+    }
+}
+
+TEST(ExpectedErrorsTest, SmallerPicturesAreWorse) {
+    const ExpectedErrors errors(small(), small().views[1]);
+    for (int eighths = 4; eighths < 8; ++eighths)
+        EXPECT_GT(errors.of({TechniqueChoice::mipmap, 0, {}, {}, eighths}),
+                  errors.of({TechniqueChoice::mipmap, 0, {}, {}, eighths + 1}));
+    EXPECT_EQ(errors.of({TechniqueChoice::accumulate, {}, 8, 3}), 1.0) << "never measured";
+}
+
+}  // namespace
+}  // namespace dioptre
