@@ -1,6 +1,8 @@
 #include "interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 #include "core/file.hpp"
@@ -9,27 +11,20 @@ namespace dioptre {
 
 namespace {
 
-volatile std::sig_atomic_t watched = 0, caught = 0;
-timespec caughtAt{};
+volatile std::sig_atomic_t watched = 0;
+constexpr std::int64_t kNever = -1;
+std::atomic<std::int64_t> caught = kNever;  // milliseconds of a monotonic clock
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 // timeout(1) and others signal the process and then its group: the same wish twice.
-constexpr double kSameWishSeconds = 0.1;
-
-bool repeatsItself() {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<double>(now.tv_sec - caughtAt.tv_sec) +
-               static_cast<double>(now.tv_nsec - caughtAt.tv_nsec) * 1e-9 <
-           kSameWishSeconds;
-}
+constexpr std::int64_t kSameWish = 100;
 
 void onSignal(int signal) {
-    if (watched && !caught) {
-        ::clock_gettime(CLOCK_MONOTONIC, &caughtAt);
-        caught = 1;
-        return;
-    }
-    if (caught && repeatsItself()) return;
+    timespec clock{};
+    ::clock_gettime(CLOCK_MONOTONIC, &clock);
+    const std::int64_t now = std::int64_t{clock.tv_sec} * 1000 + clock.tv_nsec / 1000000;
+    std::int64_t first = kNever;
+    if (watched && (caught.compare_exchange_strong(first, now) || now - first < kSameWish)) return;
     removeUnfinishedFile();
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // comes when this handler has returned
@@ -53,7 +48,7 @@ void watchInterrupts() {
 }
 
 bool interrupted() {
-    return caught != 0;
+    return caught != kNever;
 }
 
 }  // namespace dioptre

@@ -236,11 +236,13 @@ const FrameReport& FrameMaker::make(const Input& input) {
 
     // Technique, once per eye, same plan for both
     const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
-    for (EyePicture& eye : eyes_)
-        eye.picture = &eye.technique->draw(
-            {scene_, eye.view, report_.lens.lens, exposure, settings_.render.msaa, settings_.render.show,
-             report_.passes, settings_.render.samples.value_or(defaultSamples(settings_.render.technique)),
-             settings_.render.subsamples, 0, input.budgetMilliseconds / static_cast<double>(eyes_.size())});
+    const Plan plan = planOf(settings_.render);
+    for (EyePicture& eye : eyes_) {
+        EyeFrame frame{scene_, eye.view, report_.lens.lens, exposure, 0, settings_.render.show, report_.passes};
+        apply(plan, frame);
+        frame.budgetMilliseconds = input.budgetMilliseconds / static_cast<double>(eyes_.size());
+        eye.picture = &eye.technique->draw(frame);
+    }
     composed_ = &compositor_.compose(composition(), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;

@@ -238,10 +238,11 @@ std::string tableText(const Json& table) {
             text += fmt::format("{}\n{}{}", text.empty() ? "" : ",", indent, element.dump());
         return text;
     };
-    std::string text = "{\n";
+    std::string text = "{";
     for (const auto& [key, value] : table.items()) {
+        text += text.size() > 1 ? ",\n" : "\n";
         if (key == "views") {
-            text += fmt::format(" \"views\": [{}\n ],\n", lines(value, "  "));
+            text += fmt::format(" \"views\": [{}\n ]", lines(value, "  "));
         } else if (key == "plans") {
             std::string plans;
             for (Json plan : value) {
@@ -251,12 +252,12 @@ std::string tableText(const Json& table) {
                 head.pop_back();
                 plans += fmt::format("{}\n  {},\"entries\":[{}\n  ]}}", plans.empty() ? "" : ",", head, entries);
             }
-            text += fmt::format(" \"plans\": [{}\n ],\n", plans);
+            text += fmt::format(" \"plans\": [{}\n ]", plans);
         } else {
-            text += fmt::format(" \"{}\": {}{}\n", key, value.dump(), key == "front" ? "" : ",");
+            text += fmt::format(" \"{}\": {}", key, value.dump());
         }
     }
-    return text + "}\n";
+    return text + "\n}\n";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Chooses, each frame, the most accurate plan that the budget affords. Arithmetic on the times it is given: no clock.
 //
 // - It aims at 90 % of the budget: what is left is for what varies from frame to frame.
-// - The number of samples follows the price: down at once, up by at most a tenth a frame. It goes down after any missed
+// - The number of samples follows the price: down at once, up by at most a tenth, or one, a frame. It goes down after any missed
 //   frame, too.
 // - The method (all of a plan but its samples) goes down at once where its price no longer fits. One frame far off its
 //   price is a spike and moves only the samples; a second one is believed.
@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "quality/offers.hpp"
+#include "quality/candidates.hpp"
 #include "quality/plan.hpp"
 #include "quality/price_model.hpp"
 #include "quality/requirements.hpp"
@@ -44,7 +44,7 @@ enum class PlanChange {
     up,       // to a better method
     down,     // to one that fits
     rested,   // to the cheap one that will do while nobody sees
-    resumed,  // from there
+    resumed,  // from there; a change of another kind in the same frame is told instead
     adapted,  // to what the view requires: blur came or went
 };
 
@@ -97,23 +97,24 @@ class Governor {
 
     void advanceClock(const Situation& s);
     Conditions conditions(const Situation& s) const;
-    Move adapt(const Market& market, const Situation& s);
-    Move goDown(const Market& market, const Situation& s, bool missed);
-    Move goUp(const Market& market, const Situation& s);
-    void grow(const Market& market, const Situation& s);
-    std::optional<Offer> candidate(const Market& market, const Situation& s);
-    std::optional<Offer> tryable(const Plan& method, const Market& market, const Situation& s);
-    void enter(const Offer& to, const Market& market, const Situation& s);
+    Move adapt(const Candidates& candidates, const Situation& s);
+    Move goDown(const Candidates& candidates, const Situation& s, bool missed);
+    Move goUp(const Candidates& candidates, const Situation& s);
+    void grow(const Candidates& candidates, const Situation& s);
+    std::optional<PricedPlan> candidate(const Candidates& candidates, const Situation& s);
+    void forgetTrials(const Situation& s);
+    std::optional<PricedPlan> tryable(const Plan& method, const Candidates& candidates, const Situation& s) const;
+    void enter(const PricedPlan& to, const Candidates& candidates, const Situation& s);
     void left(const Plan& method, const Situation& s);
-    bool fadeFits(const Market& market, const Situation& s, const Plan& to) const;
-    Decision decision(const Market& market, const Situation& s, Move move);
+    bool fadeFits(const Candidates& candidates, const Situation& s, const Plan& to) const;
+    Decision decision(const Candidates& candidates, const Situation& s, Move move);
 
     TradeTable table_;
     PriceModel prices_;
     std::optional<Plan> current_;
-    std::optional<Plan> shelved_;  // goes on when something is blurred again
-    int sharpFrames_ = 0;          // in succession
-    bool sharp_ = false;           // the current plan is for a view without blur
+    std::optional<Plan> suspended_;  // goes on when something is blurred again
+    int sharpFrames_ = 0;            // in succession
+    bool sharp_ = false;             // the current plan is for a view without blur
     bool rested_ = false;
     struct {
         Plan method;
@@ -130,9 +131,11 @@ class Governor {
     double clock_ = 0.0, step_ = 0.0;                     // seconds: own, never backwards; of the last frame
     std::optional<double> lastNow_;
     double lastUp_ = -1e9;
-    int hopefulFrames_ = 0;                          // left of such a trial
-    double hopefulWait_ = 2.0, hopefulAfter_ = 2.0;  // seconds, own clock: when what is dear but unsure may be tried
-    std::vector<Plan> drawn_;                        // as last decided
+    int speculativeFrames_ = 0;  // left of such a trial
+    static constexpr double kSpeculativeWait = 2.0;
+    double speculativeWait_ = kSpeculativeWait,
+           speculativeAfter_ = kSpeculativeWait;  // seconds, own clock: when what is dear but unsure may be tried
+    std::vector<Plan> drawn_;                     // as last decided
     ViewClass drawnView_;
     std::optional<ExpectedErrors> errors_;  // in that view
 };

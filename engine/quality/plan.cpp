@@ -27,8 +27,7 @@ std::string_view techniqueName(TechniqueChoice choice) {
 }
 
 std::optional<TechniqueChoice> techniqueNamed(std::string_view name) {
-    for (const TechniqueChoice choice :
-         {TechniqueChoice::pinhole, TechniqueChoice::mipmap, TechniqueChoice::accumulate, TechniqueChoice::reference})
+    for (const TechniqueChoice choice : kTechniques)
         if (techniqueName(choice) == name) return choice;
     return std::nullopt;
 }

@@ -11,6 +11,11 @@
 
 namespace dioptre {
 
+/// All there are, in the order of their values. New techniques join here and in the lists of plan.cpp and
+/// render/technique.cpp.
+inline constexpr TechniqueChoice kTechniques[] = {TechniqueChoice::pinhole, TechniqueChoice::mipmap,
+                                                  TechniqueChoice::accumulate, TechniqueChoice::reference};
+
 /// A dial that the technique does not have is empty.
 struct Plan {
     TechniqueChoice technique = TechniqueChoice::pinhole;
@@ -39,7 +44,7 @@ bool usesSamples(TechniqueChoice choice);
 bool usesLevels(TechniqueChoice choice);
 
 inline constexpr int kLeastEighths = 4;
-/// Whether a plan may be drawn smaller: where it is what there is for the least money.
+/// Whether a plan may be drawn smaller: only without msaa, whose samples are worth more than as many pixels.
 bool maySize(const Plan& plan);
 
 /// The plan that settings name.

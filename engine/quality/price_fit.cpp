@@ -28,6 +28,7 @@ double fetchesOf(const Plan& plan) {
     return 0.0;
 }
 
+/// About as many as the techniques' pass logs name; the fit finds what one takes.
 double passesOf(const Plan& plan) {
     const double samples = plan.samples.value_or(1);
     switch (plan.technique) {

@@ -9,7 +9,6 @@
 
 namespace dioptre {
 
-enum class Stage { triangles, fragments, fetches, passes };
 inline constexpr std::size_t kStages = 4;
 
 /// How much of each stage a frame has, all eyes together: triangles × samples of the lens; pixels × samples of lens and

@@ -8,7 +8,7 @@ namespace dioptre {
 namespace {
 
 constexpr std::size_t kLoad = 0, kFirstStage = 1, kFirstTechnique = kFirstStage + kStages;
-constexpr std::size_t kTechniqueCount = 4, kFirstMethod = kFirstTechnique + kTechniqueCount;
+constexpr std::size_t kFirstMethod = kFirstTechnique + std::size(kTechniques);
 
 // Standard deviations of logarithms. Of a frame's time: 10 % to either side, evenly, has 0.058.
 constexpr double kNoise = 0.06;
@@ -22,6 +22,7 @@ constexpr double kLoadDrift = 0.003, kOtherDrift = 0.0002;
 constexpr int kNewFrames = 4, kKnownFrames = 20;
 // A relative price found under conditions that may have passed is doubted in the end: frames to 1/e.
 constexpr double kForgetFrames = 30000.0;
+constexpr double kMostLog = 12.0;  // of any factor
 
 double square(double x) {
     return x * x;
@@ -35,7 +36,7 @@ PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)
     };
     add(kLoadPrior, kLoadDrift);
     for (std::size_t i = 0; i < kStages; ++i) add(kStagePrior, kOtherDrift);
-    for (std::size_t i = 0; i < kTechniqueCount; ++i) add(kTechniquePrior, kOtherDrift);
+    for (std::size_t i = 0; i < std::size(kTechniques); ++i) add(kTechniquePrior, kOtherDrift);
     // Methods of a smaller size stand behind those of the table, whose corrections they begin with.
     const std::size_t full = methods_.size();
     for (int eighths = kLeastEighths; eighths < 8; ++eighths)
@@ -52,7 +53,8 @@ PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)
             measured.eighths = method.eighths;
             if (measured != method) continue;
             for (const TradeTable::Entry& entry : row.entries) {
-                sum += std::log(entry.milliseconds / priceOf(coefficients_, workOf(row.plan, table.views[entry.view])));
+                const double fitted = priceOf(coefficients_, workOf(row.plan, table.views[entry.view]));
+                sum += std::clamp(std::log(entry.milliseconds / std::max(fitted, 1e-9)), -kMostLog, kMostLog);
                 count += 1.0;
             }
         }
@@ -135,7 +137,6 @@ void PriceModel::correct(std::span<const double> h, double difference) {
         for (std::size_t j = 0; j < h.size(); ++j) blame[i] += covariance_[i][j] * h[j];
         variance += h[i] * blame[i];
     }
-    constexpr double kMostLog = 12.0;
     for (std::size_t i = 0; i < h.size(); ++i) {
         factors_[i].log = std::clamp(factors_[i].log + blame[i] * difference / variance, -kMostLog, kMostLog);
         for (std::size_t j = 0; j < h.size(); ++j) covariance_[i][j] -= blame[i] * blame[j] / variance;
@@ -158,9 +159,13 @@ void PriceModel::blame(std::size_t method, double jump) {
     sinceJump_ = 0;
 }
 
-void PriceModel::learn(std::span<const Plan> drawn, const ViewClass& view, double milliseconds) {
+bool PriceModel::plausible(double milliseconds) {
     constexpr double kLeastMs = 1e-4, kMostMs = 1e7;
-    if (drawn.empty() || !(milliseconds >= kLeastMs && milliseconds <= kMostMs)) return;
+    return milliseconds >= kLeastMs && milliseconds <= kMostMs;
+}
+
+void PriceModel::learn(std::span<const Plan> drawn, const ViewClass& view, double milliseconds) {
+    if (drawn.empty() || !plausible(milliseconds)) return;
     const Plan method = methodOf(drawn.back());
     drawnFrames_ = drawn_ == method ? drawnFrames_ + 1 : 1;
     drawn_ = method;

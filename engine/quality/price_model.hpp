@@ -36,8 +36,10 @@ class PriceModel {
     /// How unsure the price is: standard deviation of its logarithm.
     double uncertainty(const Plan& plan, const ViewClass& view) const;
 
-    /// A finished frame that drew these, for both eyes. A time that no clock could have measured (0, negative, not
-    /// finite) is ignored.
+    /// Whether a clock could have measured that: not 0, negative or not finite, for one.
+    static bool plausible(double milliseconds);
+
+    /// A finished frame that drew these, for both eyes. Implausible times are ignored.
     void learn(std::span<const Plan> drawn, const ViewClass& view, double milliseconds);
 
     /// Whether the last frame was far off its price, and none before it in that direction.

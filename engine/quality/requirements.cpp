@@ -64,10 +64,7 @@ Requirements require(const ViewFacts& facts) {
     } else if (!r.foreground) {
         omit("foreground", "nothing in front of focus is blurred by more than half a pixel");
     }
-    if (!r.blur) {
-        r.mostSamples = kAntialiasingSamples;
-        omit("lens samples", "in focus, eight samples antialias as well as more");
-    }
+    if (!r.blur) omit("lens samples", "in focus, eight samples antialias as well as more");
     if (r.blur && !r.shapedDiscs)
         omit("shaped highlights", facts.blades < 3 ? "the aperture is round" : "nothing in view is bright enough");
     if (!facts.transparency) omit("blended surfaces", "nothing in view is transparent");
@@ -89,12 +86,13 @@ ViewClass classOf(const ViewFacts& facts, double triangles, double pixels, int e
         const double blurred = p.inFront + p.behind;
         view.behindShare = blurred > 0.0 ? p.behind / blurred : 0.5;
     } else if (const auto& range = facts.boxes) {
-        const double front = std::max(0.0, finiteRadius(-range->nearest));
-        const double behind = std::max(0.0, finiteRadius(range->farthest));
         // In diameters, as if everything between the bounds were seen equally often
-        view.largestCocPx = 2.0 * std::max(front, behind);
-        view.meanCocPx = front + behind > 0.0 ? (front * front + behind * behind) / (front + behind) : 0.0;
-        view.behindShare = front + behind > 0.0 ? behind / (front + behind) : 0.5;
+        const double nearest = -finiteRadius(-range->nearest), farthest = finiteRadius(range->farthest);
+        const double span = farthest - nearest;
+        view.largestCocPx = 2.0 * std::max(std::abs(nearest), std::abs(farthest));
+        view.meanCocPx =
+            span > 0.0 ? (farthest * std::abs(farthest) - nearest * std::abs(nearest)) / span : view.largestCocPx;
+        if (span > 0.0) view.behindShare = (std::max(farthest, 0.0) - std::max(nearest, 0.0)) / span;
     }
     return view;
 }

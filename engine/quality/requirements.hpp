@@ -15,7 +15,7 @@ namespace dioptre {
 /// path-traced pinhole pictures full of edges, one of 0.7 px at 0.9994, one of 1 px at 0.9980.
 inline constexpr double kSharpDiameter = 0.5;
 
-/// Samples that antialias what is wholly in focus: msaa's finest.
+/// Samples that antialias what is wholly in focus.
 inline constexpr int kAntialiasingSamples = 8;
 
 /// Signed CoC RADII, px, > 0 behind focus: the nearest and the farthest of what is seen. A background is: infinitely far.
@@ -31,7 +31,7 @@ struct CocBin {
     double pixels = 0.0;  // a count or a share; >= 0
 };
 
-/// Of a picture of about this view. Tighter than what boxes bound.
+/// Of a picture of about this view: for its class. What it requires hangs on the boxes, which bound what comes next, too.
 struct PixelStatistics {
     double inFront = 0.0, behind = 0.0;                // shares of the picture whose CoC is not sharp, 0..1
     double meanDiameter = 0.0, largestDiameter = 0.0;  // CoC DIAMETERS, px
@@ -55,13 +55,12 @@ struct Omission {
 };
 
 struct Requirements {
-    bool blur = true;                // else a pinhole's picture is the picture
-    bool foreground = true;          // something in front of focus is blurred
-    double largestInFront = 0.0;     // CoC RADIUS, px, >= 0
-    double largestBehind = 0.0;      // CoC RADIUS, px, >= 0
-    std::optional<int> mostSamples;  // more make no visible difference; none: no limit
-    bool shapedDiscs = false;        // highlights show the aperture's corners
-    bool mayRefine = false;          // nothing moves: frames may continue one another
+    bool blur = true;             // else a pinhole's picture is the picture
+    bool foreground = true;       // something in front of focus is blurred
+    double largestInFront = 0.0;  // CoC RADIUS, px, >= 0
+    double largestBehind = 0.0;   // CoC RADIUS, px, >= 0
+    bool shapedDiscs = false;     // highlights show the aperture's corners
+    bool mayRefine = false;       // nothing moves: frames may continue one another
     std::vector<Omission> omitted;
 };
 Requirements require(const ViewFacts& facts);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -63,6 +65,7 @@ class Element {
     std::string path_;
 };
 
+constexpr std::size_t kMostPlans = 1000;
 constexpr double kMost = 1e12;  // triangles, pixels, px, ms: beyond anything that is measured
 
 Plan planOf(const Element& element) {
@@ -83,7 +86,9 @@ Plan planOf(const Element& element) {
 ViewClass viewOf(const Element& element) {
     ViewClass view;
     view.triangles = element.at("triangles").number(0.0, kMost);
-    view.pixels = element.at("width").number(1.0, kMost) * element.at("height").number(1.0, kMost);
+    constexpr int kMostSide = 1 << 20;
+    view.pixels =
+        static_cast<double>(element.at("width").integer(1, kMostSide)) * element.at("height").integer(1, kMostSide);
     view.meanCocPx = element.at("mean_coc_px").number(0.0, kMost);
     view.largestCocPx = std::max(std::abs(element.at("nearest_coc_px").number(-kMost, kMost)),
                                  std::abs(element.at("farthest_coc_px").number(-kMost, kMost)));
@@ -101,15 +106,19 @@ TradeTable tableOf(const Element& root) {
         if (!byKey.emplace(key.text(), table.views.size()).second) key.fail("another than those before");
         table.views.push_back(viewOf(view));
     }
-    for (const Element& row : root.at("plans").list()) {
+    const std::vector<Element> plans = root.at("plans").list();
+    if (plans.size() > kMostPlans) root.at("plans").fail(fmt::format("at most {} plans", kMostPlans));
+    for (const Element& row : plans) {
         const Plan plan = planOf(row);
         if (std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& r) { return r.plan == plan; }))
             row.at("dials").fail("others than those before");
         table.rows.push_back({plan, {}});
+        std::set<std::size_t> seen;
         for (const Element& entry : row.at("entries").list()) {
             const Element key = entry.at("view");
             const auto view = byKey.find(key.text());
             if (view == byKey.end()) key.fail("a key of views");
+            if (!seen.insert(view->second).second) key.fail("another than those before");
             table.rows.back().entries.push_back(
                 {view->second, entry.at("ms").number(1e-6, kMost), 1.0 - entry.at("ssim").number(-1.0, 1.0)});
         }
@@ -131,12 +140,34 @@ double errorOfScale(int eighths, double meanCocPx) {
     return kSharp[std::clamp(eighths, 4, 8) - 4] / (1.0 + std::max(meanCocPx, 0.0) / kHalvedByPx);
 }
 
+/// How little two views are alike, >= 0; 0: the same. In doublings of blur and of triangles per pixel.
+double distanceOf(const ViewClass& a, const ViewClass& b) {
+    // Error hangs on blur before all else; what lies on which side of focus is worth a doubling of it.
+    const double mean = doublings(a.meanCocPx, b.meanCocPx, 0.25);
+    const double largest = 0.5 * doublings(a.largestCocPx, b.largestCocPx, 0.25);
+    const double side = 1.4 * (a.behindShare - b.behindShare);
+    const double density = 0.25 * (doublings(a.triangles, b.triangles, 1.0) - doublings(a.pixels, b.pixels, 1.0));
+    return std::hypot(std::hypot(mean, largest), std::hypot(side, density));
+}
+
 }  // namespace
 
 TradeTable parseTradeTable(std::string_view json, std::string_view where) {
-    const Json root = Json::parse(json, nullptr, false, true);
-    if (root.is_discarded()) throw InputError(fmt::format("{}: broken JSON", where));
-    return tableOf({root, where});
+    constexpr std::size_t kDeepest = 16;
+    std::array<std::set<std::string>, kDeepest + 1> keys;  // of the open object at each depth
+    const auto check = [&](int depth, Json::parse_event_t event, Json& value) {
+        const auto d = static_cast<std::size_t>(depth);
+        if (d >= kDeepest) throw InputError(fmt::format("{}: nested deeper than {}", where, kDeepest));
+        if (event == Json::parse_event_t::object_start) keys[d + 1].clear();
+        if (event == Json::parse_event_t::key && !keys[d].insert(value.get<std::string>()).second)
+            throw InputError(fmt::format("{}: key {} appears twice", where, quote(value.get<std::string>())));
+        return true;
+    };
+    try {
+        return tableOf({Json::parse(json, check, true, true), where});
+    } catch (const Json::parse_error& error) {
+        throw InputError(fmt::format("{}: broken JSON at byte {}", where, error.byte));
+    }
 }
 
 TradeTable readTradeTable(const std::filesystem::path& file) {
@@ -150,15 +181,6 @@ std::vector<Plan> TradeTable::methods() const {
         if (const Plan method = methodOf(row.plan); std::find(methods.begin(), methods.end(), method) == methods.end())
             methods.push_back(method);
     return methods;
-}
-
-double distanceOf(const ViewClass& a, const ViewClass& b) {
-    // Error hangs on blur before all else; what lies on which side of focus is worth a doubling of it.
-    const double mean = doublings(a.meanCocPx, b.meanCocPx, 0.25);
-    const double largest = 0.5 * doublings(a.largestCocPx, b.largestCocPx, 0.25);
-    const double side = 1.4 * (a.behindShare - b.behindShare);
-    const double density = 0.25 * (doublings(a.triangles, b.triangles, 1.0) - doublings(a.pixels, b.pixels, 1.0));
-    return std::hypot(std::hypot(mean, largest), std::hypot(side, density));
 }
 
 ExpectedErrors::ExpectedErrors(const TradeTable& table, const ViewClass& view) : meanCocPx_(view.meanCocPx) {

@@ -31,7 +31,7 @@ struct TradeTable {
 };
 
 /// InputError naming the file and the element, "llvmpipe.json: plans[3].entries[0].ssim: 7, must be ...": unreadable,
-/// broken JSON, another schema, a missing key, a wrong type, a value out of range, an unknown view, nothing measured.
+/// broken JSON, nested too deep, a repeated key or entry, too many plans, another schema, a missing key, a wrong type, a value out of range, an unknown view, nothing measured.
 TradeTable readTradeTable(const std::filesystem::path& file);
 TradeTable parseTradeTable(std::string_view json, std::string_view where);
 
@@ -59,8 +59,5 @@ class ExpectedErrors {
     double referenceSlope_ = 0.0;
     std::vector<Curve> curves_;
 };
-
-/// How little two views are alike, >= 0; 0: the same. In doublings of blur and of triangles per pixel.
-double distanceOf(const ViewClass& a, const ViewClass& b);
 
 }  // namespace dioptre

@@ -7,7 +7,7 @@ struct ViewClass {
     double triangles = 0.0;                      // of what one eye sees, at full detail
     double pixels = 0.0;                         // of one eye's picture
     double meanCocPx = 0.0, largestCocPx = 0.0;  // DIAMETERS of circles of confusion, >= 0, of what is seen
-    double behindShare = 0.5;                    // of the picture, 0..1: what lies behind focus
+    double behindShare = 0.5;                    // 0..1: of what is not in focus, what lies behind it
     int eyes = 1;                                // pictures in a frame
 
     bool operator==(const ViewClass&) const = default;

@@ -134,7 +134,10 @@ void GpuScene::uploadMaterials(const Scene& scene) {
         bound.surfaceMapped = m.metallicRoughnessTexture.used();
         bound.bumped = m.normalTexture.used();
         data.push_back(materialData(m));
-        for (const TextureSlot* slot : textureSlots(m)) bound.mapped = bound.mapped || (slot->used() && !slot->plain());
+        for (const TextureSlot* slot : textureSlots(m)) {
+            bound.textured = bound.textured || slot->used();
+            bound.mapped = bound.mapped || (slot->used() && !slot->plain());
+        }
     }
     materialBuffer_ = Buffer(std::span<const gpu::MaterialData>(data), "materials");
 }
@@ -210,9 +213,8 @@ std::size_t GpuScene::bytes() const {
 }
 
 const Program& GpuScene::programFor(unsigned features) const {
-    const auto [found, missing] = programs_.try_emplace(features);
-    if (missing) found->second = program(features);
-    return found->second;
+    const auto found = programs_.find(features);
+    return found != programs_.end() ? found->second : programs_.emplace(features, program(features)).first->second;
 }
 
 unsigned GpuScene::featuresOf(const State& state, Phase phase, bool spaced) const {
@@ -228,7 +230,7 @@ unsigned GpuScene::featuresOf(const State& state, Phase phase, bool spaced) cons
         shading |=
             kLit | (m.occluded ? kOcclusion : 0u) | (m.surfaceMapped ? kSurfaceMap : 0u) | (m.bumped ? kNormalMap : 0u);
     const unsigned seen = !state.blended ? alpha : phase == Phase::blended ? kBlend : kSolid;
-    const unsigned reading = spaced && m.alphaMode != AlphaMode::mask ? kSpaced : 0u;
+    const unsigned reading = spaced && m.textured && m.alphaMode != AlphaMode::mask ? kSpaced : 0u;
     return vertex | shading | seen | reading;
 }
 

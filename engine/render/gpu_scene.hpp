@@ -64,7 +64,7 @@ class GpuScene {
     /// Another number with each other pose or further level of detail.
     std::uint64_t version() const { return version_; }
 
-    /// Draws what `view` sees to the bound framebuffer: radiance × exposure and depth, or depth alone. The depth
+    /// Draws what `view` sees to the bound framebuffer (programs are compiled when first needed, in a frame): radiance × exposure and depth, or depth alone. The depth
     /// buffer must have been cleared to 0 (reversed depth). The depth left is that of the surface which gives the pixel
     /// most of its light: of a blended one where its alpha is 0.5 or more.
     void drawRadiance(const View& view, float exposure) const;
@@ -109,6 +109,7 @@ class GpuScene {
         std::array<TextureBinding, gpu::kMaterialTextures> textures;
         AlphaMode alphaMode = AlphaMode::opaque;
         bool lit = false, doubleSided = false;
+        bool textured = false;
         bool mapped = false;  // a texture is not read at the vertex's first coordinates
         bool occluded = false, emits = false, surfaceMapped = false, bumped = false;  // has such a texture, or emits
     };

@@ -236,7 +236,7 @@ UploadedGeometry uploadMeshes(const Scene& scene) {
 void describeVertices(const VertexArray& array, const Buffer& vertices, const Buffer& indices) {
     const GLuint vao = array.name();
     glVertexArrayVertexBuffer(vao, 0, vertices.name(), 0, sizeof(Vertex));
-    // Read at a draw's base instance, whatever the instance: matrices are drawn as instances.
+    // Read at a draw's base instance, whatever the instance: what lens samples see is drawn as instances.
     glVertexArrayBindingDivisor(vao, 1, gpu::kMostMatrices);
     glVertexArrayElementBuffer(vao, indices.name());
     struct Attribute {

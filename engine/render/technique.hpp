@@ -54,10 +54,6 @@ class Technique {
     virtual std::optional<double> fetchesPerPixel() const { return std::nullopt; }
 };
 
-/// All there are. New techniques join here and in the lists of technique.cpp.
-inline constexpr TechniqueChoice kTechniques[] = {TechniqueChoice::pinhole, TechniqueChoice::mipmap,
-                                                  TechniqueChoice::accumulate, TechniqueChoice::reference};
-
 /// One instance per eye: it keeps that eye's buffers.
 std::unique_ptr<Technique> makeTechnique(TechniqueChoice choice);
 

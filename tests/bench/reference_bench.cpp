@@ -1,7 +1,9 @@
 // The reference technique: what N samples cost against N × (1.1 pinhole frames + 1 copy pass), and how fast its error
 // falls with N.
 //
-//   bench_reference cost [SCENE.glb ...]     default: studio, toys, 2,000 small objects; one interleaved run each
+//   bench_reference cost [SCENE.glb ...]     default: studio, toys, 2,000 small objects; one interleaved run each. Beside
+//                                            it accumulate without levels of detail and sub-samples: what is left is what
+//                                            it takes to plan, share and batch
 //   bench_reference error [SCENE.glb]        RMSE of N = 16 ... 1024 against 4096 other samples, 640x480, pupil 4 mm: of
 //                                            linear radiance, and of what a display shows of it (cut at 1)
 #include <fmt/format.h>
@@ -71,6 +73,7 @@ void cost(const std::string& name, const Scene& scene) {
     const GpuScene gpu(scene);
     const auto pinhole = makeTechnique(TechniqueChoice::pinhole);
     const auto reference = makeTechnique(TechniqueChoice::reference);
+    const auto accumulate = makeTechnique(TechniqueChoice::accumulate);
     const CopyPass copy(view.width, view.height);
     const Lens lens{Metres(0.01), Metres(0.017), Dioptres(0.7)};
     PassLog log;
@@ -83,20 +86,22 @@ void cost(const std::string& name, const Scene& scene) {
         glFinish();
         return nowMilliseconds() - start;
     };
-    for (Technique* technique : {pinhole.get(), reference.get()}) technique->draw(frame);
-    std::vector<double> ratios, perSample, pinholes, copies;
+    for (Technique* technique : {pinhole.get(), reference.get(), accumulate.get()}) technique->draw(frame);
+    std::vector<double> ratios, accumulates, perSample, pinholes, copies;
     for (int i = 0; i < 11; ++i) {
         const double before = timed(*pinhole), copied = copy.run(), sampled = timed(*reference) / frame.samples;
         const double without = 0.5 * (before + timed(*pinhole));
         ratios.push_back(sampled / (1.1 * without + copied));
+        accumulates.push_back(timed(*accumulate) / frame.samples / (1.1 * without + copied));
         perSample.push_back(sampled);
         pinholes.push_back(without);
         copies.push_back(copied);
     }
-    std::fputs(fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | **{:.2f}** |\n", name, scene.triangleCount(),
-                           median(perSample), median(pinholes), median(copies), median(ratios))
-                   .c_str(),
-               stdout);
+    std::fputs(
+        fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | **{:.2f}** | {:.2f} |\n", name, scene.triangleCount(),
+                    median(perSample), median(pinholes), median(copies), median(ratios), median(accumulates))
+            .c_str(),
+        stdout);
     std::fflush(stdout);
 }
 
@@ -156,8 +161,8 @@ void run(int argc, char** argv) {
         return;
     }
     std::fputs(
-        "| scene | triangles | ms a sample | pinhole ms | copy ms | sample / (1.1 pinhole + copy) |\n"
-        "|---|---|---|---|---|---|\n",
+        "| scene | triangles | ms a sample | pinhole ms | copy ms | sample / (1.1 pinhole + copy) | of accumulate |\n"
+        "|---|---|---|---|---|---|---|\n",
         stdout);
     if (argc <= 2) cost("studio", loadGltf(studio));
     if (argc <= 2) cost("2,000 objects", manyObjects());

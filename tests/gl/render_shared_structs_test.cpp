@@ -46,6 +46,11 @@ class SharedStructsGLTest : public GlTest {
     Program program_{"scene/scene.vert.glsl", "scene/surface.frag.glsl", {"LIT", "MAPPED", "OCCLUSION"}};
 };
 
+TEST_F(SharedStructsGLTest, InstanceTransforms) {
+    EXPECT_EQ(ask("viewFromMesh", GL_LOCATION, GL_PROGRAM_INPUT), 4);
+    EXPECT_EQ(ask("viewFromMesh", GL_TYPE, GL_PROGRAM_INPUT), static_cast<GLint>(GL_FLOAT_MAT4));
+}
+
 TEST_F(SharedStructsGLTest, MaterialData) {
     using gpu::MaterialData;
     expectUniform("material.baseColor", offsetof(MaterialData, baseColor));
@@ -59,6 +64,7 @@ TEST_F(SharedStructsGLTest, MaterialData) {
         EXPECT_EQ(ask(array, GL_ARRAY_STRIDE, GL_UNIFORM), static_cast<GLint>(sizeof(glm::vec4))) << array;
     }
     EXPECT_EQ(binding("Material", GL_UNIFORM_BLOCK), 0);
+    EXPECT_EQ(ask("Material", GL_BUFFER_DATA_SIZE, GL_UNIFORM_BLOCK), static_cast<GLint>(sizeof(MaterialData)));
     EXPECT_EQ(ask("material.unused[0]", GL_OFFSET, GL_UNIFORM), static_cast<GLint>(offsetof(MaterialData, unused)));
 }
 

@@ -97,9 +97,9 @@ double someBudget(SimulatedRenderer& renderer, const ViewClass& view) {
 }
 
 /// By its error the best plan that truly fits.
-Offer bestOf(const SimulatedRenderer& renderer, const ViewClass& view, double budgetMs) {
+PricedPlan bestOf(const SimulatedRenderer& renderer, const ViewClass& view, double budgetMs) {
     const ExpectedErrors errors(table(), view);
-    Offer best{{}, 0.0, 2.0};
+    PricedPlan best{{}, 0.0, 2.0};
     const PriceModel prices(table());
     for (Plan plan : prices.methods()) {
         if (usesSamples(plan.technique)) plan.samples = kLeastSamples;
@@ -129,7 +129,7 @@ TEST(GovernorTest, KeepsTheBudgetAndComesNearTheBestPlan) {
         EXPECT_GE(run.insideShare(), 0.99) << what;
         EXPECT_GE(run.leastBetweenUps(), 1.0) << what;
         EXPECT_LE(run.lateChanges, 8) << what;
-        const Offer best = bestOf(renderer, view, budget);
+        const PricedPlan best = bestOf(renderer, view, budget);
         if (best.error > 1.0) continue;
         ++judged;
         nearBest += run.last.expectedError <= 1.1 * best.error;
@@ -421,6 +421,17 @@ TEST_F(QuietTest, AStillViewMayGoOnWithTheReference) {
     EXPECT_FALSE(frame().refinement.has_value());
 }
 
+TEST_F(QuietTest, BrokenTimesTakeNoSamples) {
+    situation.budgetMs = 2000.0;
+    const int samples = *frames(100).plan.samples;
+    for (const double broken : {0.0, -5.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e300})
+        for (int i = 0; i < 30; ++i) {
+            situation.lastMs = broken;
+            situation.now += 2.0;
+            EXPECT_GE(governor.decide(situation).plan.samples.value_or(0), samples) << broken;
+        }
+}
+
 TEST_F(QuietTest, BrokenTimersHarmNothing) {
     const Plan settled = frames(100).plan;
     const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
@@ -442,15 +453,35 @@ TEST_F(QuietTest, BrokenTimersHarmNothing) {
 }
 
 TEST_F(QuietTest, AClockThatStandsOrRunsBackwardsDelaysNoFadeAndNoChange) {
-    int ups = 0;
+    factor = 0.02;  // of a machine that draws tens of frames a second
+    situation.budgetMs = 20.0;
+    int ups = 0, fades = 0, sinceUp = 1000;
     for (int i = 0; i < 400; ++i) {
         situation.now = i % 2 == 0 ? 7.0 : 7.0 - i;
         const Decision d = frame();
+        sinceUp = d.change == PlanChange::up ? 0 : sinceUp + 1;
         ups += d.change == PlanChange::up;
-        EXPECT_TRUE(!d.fade || i < 390);
+        fades += d.fade.has_value();
+        if (sinceUp >= 12) {
+            EXPECT_FALSE(d.fade.has_value()) << i << ": frames' times stand in for the clock's";
+        }
     }
     EXPECT_GE(ups, 1);
-    EXPECT_LE(ups, 3);
+    EXPECT_LE(ups, 6);
+    EXPECT_GE(fades, 1);
+}
+
+TEST_F(QuietTest, AMethodLeftForABetterOneHasNotFailed) {
+    situation.budgetMs = 60.0;
+    frames(40);
+    situation.budgetMs = 130.0;
+    const Plan middle = methodOf(frames(60).plan);
+    situation.budgetMs = 2000.0;
+    ASSERT_NE(methodOf(frames(60).plan), middle);
+    situation.budgetMs = 60.0;
+    ASSERT_NE(methodOf(frames(30).plan), middle);
+    situation.budgetMs = 130.0;
+    EXPECT_EQ(methodOf(frames(30).plan), middle);
 }
 
 TEST_F(QuietTest, OddSituationsGetAPlan) {

@@ -26,12 +26,10 @@ TEST(RequirementsTest, NothingBeyondHalfAPixelOfDiameterIsAPinholes) {
     const Requirements sharp = require(seeing(-0.25, 0.25));
     EXPECT_FALSE(sharp.blur);
     EXPECT_TRUE(omits(sharp, "blur"));
-    EXPECT_EQ(sharp.mostSamples, 8);
     for (const auto& [nearest, farthest] : {std::pair(-0.26, 0.0), {0.0, 0.26}, {-30.0, 30.0}, {5.0, 6.0}}) {
         const Requirements r = require(seeing(nearest, farthest));
         EXPECT_TRUE(r.blur) << nearest << " " << farthest;
         EXPECT_FALSE(omits(r, "blur"));
-        EXPECT_EQ(r.mostSamples, std::nullopt);
     }
 }
 
@@ -110,6 +108,11 @@ TEST(RequirementsTest, TheClassIsOfPixelsWhereTheyAreKnown) {
     EXPECT_DOUBLE_EQ(byBoxes.meanCocPx, 25.0);  // of |c| evenly over -10..30: 12.5 px of radius
     EXPECT_DOUBLE_EQ(byBoxes.behindShare, 0.75);
     EXPECT_EQ(byBoxes.eyes, 2);
+    const ViewClass behind = classOf(seeing(5.0, 30.0), 1.0, 1.0, 1),
+                    front = classOf(seeing(-30.0, -30.0), 1.0, 1.0, 1);
+    EXPECT_DOUBLE_EQ(behind.meanCocPx, 35.0);
+    EXPECT_DOUBLE_EQ(behind.behindShare, 1.0);
+    EXPECT_DOUBLE_EQ(front.meanCocPx, 60.0);
     const CocBin bins[] = {{-2.0, -2.0, 1.0}, {4.0, 4.0, 3.0}};
     facts.pixels = pixelStatistics(bins);
     const ViewClass byPixels = classOf(facts, 1000.0, 640.0 * 480.0, 2);

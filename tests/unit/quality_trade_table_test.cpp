@@ -77,6 +77,13 @@ TEST(TradeTableTest, RefusalsNameFileAndElement) {
     expectRefused(changed("/plans/4/entries/1/ms", nullptr), "plans[4].entries[1].ms");
     expectRefused(changed("/plans/4/entries/1/ssim", 1.5), "plans[4].entries[1].ssim: '1.5', must be a number from -1");
     expectRefused(changed("/plans/4/entries/1/view", "x"), "plans[4].entries[1].view: '\"x\"', must be a key of views");
+    expectRefused(changed("/plans/4/entries/1/view", smallJson()["plans"][4]["entries"][0]["view"]),
+                  "plans[4].entries[1].view: ");
+    expectRefused(changed("/views/2/width", 640.5), "views[2].width: '640.5', must be an integer");
+    expectRefused(changed("/plans/4/entries/1/ms", -1), "plans[4].entries[1].ms: '-1', must be a number from");
+    expectRefused(changed("/plans/4/entries/1/ms", 1e300), "plans[4].entries[1].ms");
+    expectRefused(std::string(100000, '['), "nested deeper than 16");
+    expectRefused(R"({"schema": 2, "schema": 2})", "key 'schema' appears twice");
     Json without = smallJson();
     without["plans"][3]["entries"][2].erase("ssim");
     expectRefused(without.dump(), "plans[3].entries[2]: key 'ssim' is missing");

@@ -52,7 +52,6 @@ class SimulatedRenderer {
         const double noisy = cost * (1.0 + noise * even(random_));
         return std::generate_canonical<double, 32>(random_) < spikeShare ? spike * noisy : noisy;
     }
-    std::mt19937& random() { return random_; }
 
   private:
     std::mt19937 random_;

@@ -1,4 +1,4 @@
-// What the methods of drawing offer in one view for a given price.
+// What the methods of drawing give in one view for a given price.
 #pragma once
 
 #include <optional>
@@ -14,31 +14,30 @@ namespace dioptre {
 inline constexpr int kLeastSamples = 4;
 inline constexpr int kMostSamples = 4096;
 
-struct Offer {
+struct PricedPlan {
     Plan plan;
     double milliseconds = 0.0;
     double error = 1.0;  // expected 1 - SSIM
 };
 
 /// One view, its prices and errors.
-class Market {
+class Candidates {
   public:
     /// All outlive it.
-    Market(const PriceModel& prices, const ExpectedErrors& errors, const ViewClass& view,
-           const Requirements& requirements);
+    Candidates(const PriceModel& prices, const ExpectedErrors& errors, const ViewClass& view,
+               const Requirements& requirements);
 
     /// Methods that may draw this view: where nothing is blurred, pinholes.
     std::vector<Plan> methods() const;
-    bool allows(const Plan& plan) const;
 
-    Offer offer(const Plan& plan) const;
+    PricedPlan priced(const Plan& plan) const;
     /// The method with the most samples of which `margin` times the price is at most `limit` ms; none where the least
     /// are too dear.
-    std::optional<Offer> within(const Plan& method, double limit, double margin = 1.0) const;
+    std::optional<PricedPlan> within(const Plan& method, double limit, double margin = 1.0) const;
     /// Of what fits even if it is as dear as its price is unsure, the one with the least error; none where nothing does.
-    std::optional<Offer> safest(double limit) const;
+    std::optional<PricedPlan> safest(double limit) const;
     /// What costs the least, whatever that is.
-    Offer cheapest() const;
+    PricedPlan cheapest() const;
     /// The cheapest at full size that gives the view what it requires: a blur where there is one.
     Plan adequate() const;
 
