@@ -8,7 +8,8 @@
 //   sprites that samples begin with. [JKLL13] groups the samples for each object, and copies each; here all objects up
 //   to one CoC share one grouping, so that thousands take one copy. Blended surfaces are drawn for each sample;
 // - each picture serves some more points of the lens around its own (subsample_blur.hpp).
-// With level 0 for all, nothing shared and no sub-samples it is the reference, to the bit.
+// Textures of what is blurred are read no finer than its samples lie apart. With no textures, level 0 for all, nothing
+// shared and no sub-samples it is the reference, to the bit.
 //
 // Samples come in groups of as many as one submission of the geometry can draw; memory does not grow with their number.
 // Each has its own sub-pixel jitter (of shared renderings: sharing.hpp), so edges are antialiased and msaa is not
