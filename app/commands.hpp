@@ -12,6 +12,9 @@ namespace dioptre {
 /// The scene that the command line names, a file or builtin:NAME, else the studio; its warnings go to the log.
 Scene loadScene(const Command& command);
 
+/// What a single picture may take where nobody says.
+inline constexpr double kPictureMs = 1000.0;
+
 /// The context that --context names, made current.
 std::unique_ptr<Context> openHeadlessContext(const Command& command);
 

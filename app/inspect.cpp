@@ -69,7 +69,7 @@ std::string lensText(const Settings& settings, const FrameReport& frame) {
 
 std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
     const View& view = maker.startingView();
-    const VergenceRange range = maker.scene().vergenceRange(view);
+    const ViewContents range = maker.scene().contents(view);
     std::string text = fmt::format("view       {}x{} px an eye, f {:.1f} px, near {:.4g} m\n", view.width, view.height,
                                    focalLengthPixels(view).x, view.near.value);
     if (range.anything) {
@@ -81,7 +81,7 @@ std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
             cocRadiusPixels(frame.lens.lens, f, Dioptres(range.nearest)),
             cocRadiusPixels(frame.lens.lens, f, Dioptres(range.farthest)));
     }
-    text += fmt::format("plan       {}, {:.1f} MB of textures for the eyes\n", frame.plan,
+    text += fmt::format("plan       {}, {:.1f} MB of textures for the eyes\n", planText(frame.plan),
                         static_cast<double>(maker.techniqueBytes()) / 1e6);
     std::map<std::string_view, int> counts;
     for (const auto& pass : frame.passes.entries) ++counts[pass.name];
@@ -97,11 +97,15 @@ void runInspect(const Command& command) {
     if (command.lods) return inspectLods(scene);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
-    if (usesLevels(command.settings.render.technique)) maker.addLevels(buildLevels(scene, {lodFolder()}));
+    // What auto plans does not hang on them.
+    if (const auto plan = planOf(command.settings.render); plan && usesLevels(plan->technique))
+        maker.addLevels(buildLevels(scene, {lodFolder()}));
     const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
     scene.releaseBulk();
     FrameMaker::Input input;
     input.time = command.settings.view.time;
+    input.budgetMilliseconds = command.settings.render.budgetMs.value_or(kPictureMs);
+    input.alone = true;
     const FrameReport& frame = maker.make(input);
     std::fputs((text + lensText(command.settings, frame) + viewText(maker, frame)).c_str(), stdout);
 }

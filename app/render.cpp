@@ -29,8 +29,9 @@ void runRender(const Command& command) {
     Scene scene = loadScene(command);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
-    if (usesLevels(command.settings.render.technique)) maker.addLevels(buildLevels(scene, {lodFolder()}));
-    scene.releaseBulk();
+    const auto named = planOf(command.settings.render);
+    const auto addLevels = [&] { maker.addLevels(buildLevels(scene, {lodFolder()})); };
+    if (named ? usesLevels(named->technique) : sequence) addLevels();
     std::vector<FrameReport> shown;
     const auto warnIfLimited = [](const ResolvedLens& lens) {
         if (lens.focusLimited)
@@ -40,15 +41,21 @@ void runRender(const Command& command) {
     if (!sequence) {
         FrameMaker::Input input;
         input.time = command.settings.view.time;
+        input.budgetMilliseconds = command.settings.render.budgetMs.value_or(kPictureMs);
+        input.alone = true;
+        // Levels of detail take long to build: only for a plan that draws them
+        if (!named && usesLevels(maker.make(input).plan.technique)) addLevels();
         shown.push_back(maker.make(input));
         warnIfLimited(shown.back().lens);
         writeImage(command.out, maker.composed());
     } else {
+        scene.releaseBulk();
         makeFolder(command.out, "--out");
         if (!command.log.empty()) requireWritableName(command.log);
         watchInterrupts();
-        shown = renderSequence(
-            maker, {scene.name, command.frames, command.fps, command.out, command.settings.view.time, interrupted});
+        shown = renderSequence(maker, {scene.name, command.frames, command.fps,
+                                       command.settings.render.budgetMs.value_or(1000.0 / command.fps), command.out,
+                                       command.settings.view.time, interrupted});
         if (!shown.empty())
             logInfo(fmt::format("{} frames in {}, to look at: {}", shown.size(), command.out.string(),
                                 (command.out / "index.html").string()));

@@ -18,8 +18,6 @@ namespace dioptre {
 
 namespace {
 
-// What a refining technique may take of a frame: input still feels immediate.
-constexpr double kRefineMilliseconds = 50.0;
 constexpr double kNoticeSeconds = 10.0;  // how long the title says why a scene was refused
 
 /// Where the pointer is in its eye's picture, 0..1 from the top left; none outside the picture.
@@ -37,10 +35,17 @@ std::optional<glm::dvec2> pointerGaze(GLFWwindow* window, DisplayChoice display,
     return gaze;
 }
 
+/// Of the first screen, ms; 60 Hz where it does not say.
+double screenRefreshMs() {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    return 1000.0 / (mode && mode->refreshRate > 0 ? mode->refreshRate : 60);
+}
+
 /// A scene and what draws it.
 struct Show {
     Show(Scene&& shown, const Settings& settings) : scene(std::move(shown)), maker(scene, settings) {
-        if (usesLevels(settings.render.technique))
+        if (maker.mayUseLevels())
             levels = std::make_unique<LodBuilder>(scene, LodOptions{lodFolder()});
         else
             scene.releaseBulk();
@@ -95,6 +100,7 @@ class Viewer {
             if (count > 0) static_cast<Viewer*>(glfwGetWindowUserPointer(window))->dropped_ = paths[0];
         });
         start_ = glfwGetTime() - settings().view.time;
+        refreshMs_ = screenRefreshMs();
     }
 
     const Settings& settings() const { return command_.settings; }
@@ -103,7 +109,8 @@ class Viewer {
         FrameMaker::Input input;
         input.time = glfwGetTime() - start_;
         input.mayLag = true;
-        input.budgetMilliseconds = kRefineMilliseconds;
+        input.budgetMilliseconds = settings().render.budgetMs.value_or(refreshMs_);
+        input.refines = true;
         // A trace plays; without one, the pointer is the gaze.
         if (settings().focus.gazeTrace.empty()) {
             const auto pointer = pointerGaze(window_.handle(), display_, picture_);
@@ -116,11 +123,11 @@ class Viewer {
         glfwGetFramebufferSize(window_.handle(), &size.width, &size.height);
         if (size.width > 0 && size.height > 0) show_->maker.present(size);
         glfwSwapBuffers(window_.handle());
-        const std::string title =
-            input.time < noticeUntil_
-                ? notice_
-                : fmt::format("Dioptre: {}  focus {:.2f} D  {}  {:.1f} ms{}", show_->scene.name,
-                              frame.lens.lens.focus.value, frame.plan, frame.milliseconds, show_->progressText());
+        const std::string title = input.time < noticeUntil_
+                                      ? notice_
+                                      : fmt::format("Dioptre: {}  focus {:.2f} D  {}  {:.1f} ms{}", show_->scene.name,
+                                                    frame.lens.lens.focus.value, planText(frame.plan),
+                                                    frame.milliseconds, show_->progressText());
         glfwSetWindowTitle(window_.handle(), title.c_str());
         return frame;
     }
@@ -147,7 +154,7 @@ class Viewer {
     std::unique_ptr<Show> show_;
     std::string dropped_;  // a file, until it is opened
     std::string notice_;
-    double start_ = 0.0, noticeUntil_ = 0.0;
+    double start_ = 0.0, noticeUntil_ = 0.0, refreshMs_ = 0.0;
 };
 
 }  // namespace

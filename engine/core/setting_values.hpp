@@ -154,6 +154,14 @@ inline bool read(const Setting&, std::string_view text, ShowStage& value) {
     return false;
 }
 
+/// The first choice is "auto": none.
+inline bool read(const Setting& setting, std::string_view text, std::optional<TechniqueChoice>& value) {
+    const std::size_t i = choiceIndex(setting, text);
+    if (i == setting.choices.size()) return false;
+    value = i == 0 ? std::nullopt : std::optional(static_cast<TechniqueChoice>(i - 1));
+    return true;
+}
+
 template <class T>
 bool read(const Setting& setting, std::string_view text, std::optional<T>& value) {
     if (text.empty()) {
@@ -198,6 +206,9 @@ inline std::string write(const Setting&, const PictureSize& value) {
 inline std::string write(const Setting&, const ShowStage& value) {
     if (value.stage == ShowChoice::pyramid) return "pyramid:" + std::to_string(value.level);
     return std::string(kShowNames[static_cast<std::size_t>(value.stage)]);
+}
+inline std::string write(const Setting& setting, const std::optional<TechniqueChoice>& value) {
+    return std::string(setting.choices[value ? static_cast<std::size_t>(*value) + 1 : 0]);
 }
 template <class T>
 std::string write(const Setting& setting, const std::optional<T>& value) {

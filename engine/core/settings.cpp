@@ -31,7 +31,7 @@ template <auto Group, auto Member>
 Setting row(Setting setting) {
     using T = std::remove_reference_t<decltype((Settings{}.*Group).*Member)>;
     setting.kind = kindOf<T>();
-    setting.optional = setting.optional || values::kIsOptional<T>;
+    if constexpr (values::kIsOptional<T>) setting.optional = values::write(setting, T{}).empty();
     setting.get = [](const Settings& s, const Setting& self) { return values::write(self, (s.*Group).*Member); };
     setting.set = [](Settings& s, const Setting& self, std::string_view text) {
         if (values::read(self, text, (s.*Group).*Member)) return;
@@ -191,8 +191,18 @@ std::vector<Setting> makeTable() {
             {.group = "render",
              .name = "technique",
              .help = "way of drawing defocus; pinhole draws none, all is sharp; mipmap is fast, accumulate accurate, "
-                     "reference slow and exact",
-             .choices = {"pinhole", "mipmap", "accumulate", "reference"}}),
+                     "reference slow and exact; auto: whatever is most accurate within the budget",
+             .choices = {"auto", "pinhole", "mipmap", "accumulate", "reference"}}),
+        row<&S::render, &Render::budgetMs>(
+            {.group = "render",
+             .name = "budget-ms",
+             .help =
+                 "time for a frame, both eyes, that auto keeps to; not given: a frame of the sequence, the screen's "
+                 "refresh; 1000 ms for one picture",
+             .unit = "ms",
+             .min = 0.0,
+             .max = 1e6,
+             .minExclusive = true}),
         row<&S::render, &Render::samples>(
             {.group = "render",
              .name = "samples",

@@ -76,10 +76,11 @@ struct ShowStage {
 };
 
 struct RenderSettings {
-    TechniqueChoice technique = TechniqueChoice::mipmap;
-    int msaa = 4;                // samples per pixel: 0 or 4
-    std::optional<int> samples;  // lens samples of accumulate or reference; none: the technique's own
-    int subsamples = 4;          // of each of accumulate's samples
+    std::optional<TechniqueChoice> technique;  // none: the most accurate that the budget affords
+    std::optional<double> budgetMs;            // of a frame, all eyes; none: as the command has it
+    int msaa = 4;                              // samples per pixel: 0 or 4
+    std::optional<int> samples;                // lens samples of accumulate or reference; none: the technique's own
+    int subsamples = 4;                        // of each of accumulate's samples
     ShowStage show;
     double exposureEv = 0.0;
     ToneMapChoice tonemap = ToneMapChoice::none;

@@ -96,12 +96,19 @@ const Settings& requireDrawable(const Settings& settings) {
     if (whole.width > width || whole.height > height)
         throw InputError(fmt::format("--size: {}x{} makes a picture of {}x{}, this OpenGL draws at most {}x{}",
                                      view.size.width, view.size.height, whole.width, whole.height, width, height));
-    const int msaa = usesMsaa(settings.render.technique) ? settings.render.msaa : 0;
+    const auto plan = planOf(settings.render);
+    const int msaa = plan ? plan->msaa.value_or(0) : settings.render.msaa;
     if (!possible(GL_RGBA16F, msaa, view.size) || !possible(GL_RGBA32F, 0, whole))
         throw InputError(
             fmt::format("--size: {}x{} with --msaa {} takes more memory in one texture than this OpenGL gives",
                         view.size.width, view.size.height, msaa));
     return settings;
+}
+
+Image linearImage(const Texture& picture) {
+    Image image(picture.width(), picture.height());
+    image.pixels = readTexture(picture, GL_RGB, 3);
+    return image;
 }
 
 /// The gaze as visual angles from the axis, degrees, for its speed.
@@ -124,12 +131,13 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     if (!settings.focus.gazeTrace.empty()) gazeTrace_ = readGazeTrace(settings.focus.gazeTrace);
     if (!settings.focus.headTrace.empty()) headTrace_ = readHeadTrace(settings.focus.headTrace);
     if (settings.focus.focus.mode == FocusMode::metres) checkFocus(preset_, settings.focus.focus.metres);
-    for (int i = 0; i < (drawsBothEyes(settings.view) ? 2 : 1); ++i)
-        eyes_.push_back({start_, makeTechnique(settings.render.technique), nullptr});
-    report_.plan = planText(planOf(settings.render));
-    if (const double brightest = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
-        brightest > kMostRadiance)
-        reportCut(fmt::format("a material emits {:.3g} at this exposure", brightest));
+    eyes_.resize(drawsBothEyes(settings.view) ? 2 : 1);
+    if (const auto plan = planOf(settings.render))
+        named_ = *plan;
+    else
+        planner_.emplace();
+    brightest_ = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
+    if (brightest_ > kMostRadiance) reportCut(fmt::format("a material emits {:.3g} at this exposure", brightest_));
     if (const Camera* camera = startCamera(scene, settings.view); camera && camera->node >= 0) camera_ = *camera;
 }
 
@@ -178,7 +186,7 @@ void FrameMaker::placeEyes(const View& head) {
 
 std::optional<FrameMaker::GazeDepth> FrameMaker::gazeDepth(const View& centre, bool mayLag) {
     std::vector<View> views;
-    for (const EyePicture& eye : eyes_) views.push_back(eye.view);
+    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
     const Radians error(glm::radians(settings_.focus.gazeErrorDeg));
     // While the gaze is lost, the middle is watched: focus drifts there in the end.
     const GazeSample& gaze = report_.gaze;
@@ -227,6 +235,7 @@ const FrameReport& FrameMaker::make(const Input& input) {
     const View head = headView(input);
     placeEyes(head);
     const Dioptres wanted = focusNow(head, input);
+    const bool first = !lastTime_;
     lastTime_ = input.time;
 
     // Lens or eye: what it can reach
@@ -234,33 +243,145 @@ const FrameReport& FrameMaker::make(const Input& input) {
     report_.lens.lens.blades = settings_.lens.blades >= 3 ? settings_.lens.blades : 0;
     report_.lens.lens.bladeRotation = Radians(glm::radians(settings_.lens.bladeRotationDeg));
 
-    // Technique, once per eye, same plan for both
-    const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
-    const Plan plan = planOf(settings_.render);
-    for (EyePicture& eye : eyes_) {
-        EyeFrame frame{scene_, eye.view, report_.lens.lens, exposure, 0, settings_.render.show, report_.passes};
-        apply(plan, frame);
-        frame.budgetMilliseconds = input.budgetMilliseconds / static_cast<double>(eyes_.size());
-        eye.picture = &eye.technique->draw(frame);
+    // What the view requires, and the plan; drawn once per eye, the same for both
+    report_.budgetMs = input.budgetMilliseconds;
+    report_.decision.reset();
+    auto drew = FramePlanner::Drew::somethingElse;
+    if (planner_) {
+        if (first) input.alone ? lookAhead() : prepare();
+        report_.decision = decide(input);
+        drew = drawEyes(*report_.decision);
+        planner_->look(eyes_.front().drawing.technique(), eyes_.front().view, report_.passes);
+    } else {
+        drawNamed(input);
     }
-    composed_ = &compositor_.compose(composition(), report_.passes);
+    composed_ = &compositor_.compose(composition(shown(eyes_.front()), shown(eyes_.back())), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;
+    if (planner_) planner_->finished(report_.milliseconds, first ? FramePlanner::Drew::somethingElse : drew);
     return report_;
 }
 
-Composition FrameMaker::composition() const {
-    const Texture& left = *eyes_.front().picture;
-    const Texture& right = *eyes_.back().picture;
+EyeFrame FrameMaker::eyeFrame(const DrawnEye& eye) {
+    const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
+    return {scene_, eye.view, report_.lens.lens, exposure, 0, settings_.render.show, report_.passes};
+}
+
+/// Whether the eye cannot see what is shown: in flight, or shut. A gaze that stays away is a lost tracker.
+bool FrameMaker::unseen(double time) {
+    constexpr double kLongestBlink = 0.4;  // seconds
+    if (settings_.focus.focus.mode != FocusMode::gaze) return false;
+    if (report_.gaze.valid)
+        lostAt_.reset();
+    else if (!lostAt_ || time < *lostAt_)
+        lostAt_ = time;
+    const bool blinks = lostAt_ && time - *lostAt_ < kLongestBlink;
+    return blinks || filter_.state() == FocusState::saccade;
+}
+
+Decision FrameMaker::decide(const Input& input) {
+    std::vector<View> views;
+    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
+    const Decision decision = planner_->decide({scene_, views, report_.lens.lens, input.time, input.budgetMilliseconds,
+                                                brightest_ > 1.0, unseen(input.time), input.alone});
+    for (const Omission& omission : planner_->requirements().omitted) report_.passes.skip(omission.what, omission.why);
+    return decision;
+}
+
+/// Each way of drawing once, so that none keeps a later frame waiting for its programs.
+void FrameMaker::prepare() {
+    PassLog unheard;
+    const Plan cheap{TechniqueChoice::pinhole, 0, {}, {}}, reference{TechniqueChoice::reference, {}, kLeastSamples, {}};
+    for (DrawnEye& eye : eyes_) {
+        const EyeFrame frame{scene_, eye.view, report_.lens.lens, 1.0f, 0, {}, unheard};
+        for (Plan method : planner_->prices().methods()) {
+            if (method.eighths != 8) continue;
+            if (usesSamples(method.technique)) method.samples = kLeastSamples;
+            eye.drawing.draw(method, frame);
+        }
+        eye.drawing.fade(cheap, cheap, 0.5, frame);
+        eye.drawing.refine(reference, kLeastSamples, frame);
+    }
+    glFinish();
+}
+
+/// Where no frame has been that could tell of this one: the blur of a sharp picture, before anything is planned.
+void FrameMaker::lookAhead() {
+    DrawnEye& eye = eyes_.front();
+    eye.drawing.draw({TechniqueChoice::pinhole, 0, {}, {}}, eyeFrame(eye));
+    planner_->look(eye.drawing.technique(), eye.view, report_.passes);
+    glFinish();
+}
+
+FramePlanner::Drew FrameMaker::drawEyes(const Decision& decision) {
+    report_.plan = decision.plan;
+    const auto& refinement = decision.refinement;
+    if (refinement && !decision.fade && base_ && methodOf(*base_) == methodOf(decision.plan)) {
+        for (DrawnEye& eye : eyes_)
+            eye.refined = &eye.drawing.refine(refinement->plan, refinement->samplesNow, eyeFrame(eye));
+        const int samples = eyes_.front().drawing.refinedSamples();
+        if (samples >= refinement->shownFrom) {
+            report_.plan = refinement->plan;
+            report_.plan.samples = samples;
+        } else {
+            report_.plan = *base_;
+            for (DrawnEye& eye : eyes_) eye.refined = nullptr;
+        }
+        return FramePlanner::Drew::refinement;
+    }
+    base_ = decision.fade ? std::nullopt : std::optional(decision.plan);
+    for (DrawnEye& eye : eyes_) {
+        eye.refined = nullptr;
+        eye.picture = decision.fade
+                          ? &eye.drawing.fade(decision.fade->from, decision.plan, decision.fade->weight, eyeFrame(eye))
+                          : &eye.drawing.draw(decision.plan, eyeFrame(eye));
+    }
+    return FramePlanner::Drew::plan;
+}
+
+void FrameMaker::drawNamed(const Input& input) {
+    report_.plan = named_;
+    // As many samples as last time, but for what that took more or less than the budget
+    constexpr double kMostChange = 2.0;
+    const bool refines = input.refines && named_.samples && input.budgetMilliseconds > 0.0;
+    if (refines && refining_) {
+        const double change =
+            std::clamp(input.budgetMilliseconds / report_.milliseconds, 1.0 / kMostChange, kMostChange);
+        samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, *named_.samples);
+    }
+    for (DrawnEye& eye : eyes_) {
+        EyeFrame frame = eyeFrame(eye);
+        frame.samplesNow = refines ? samplesNow_ : 0;
+        eye.picture = &eye.drawing.draw(named_, frame);
+    }
+    refining_ = refines && eyes_.front().drawing.technique().progress() < 1.0;
+}
+
+Image FrameMaker::pictureBy(const Plan& plan) {
+    PassLog unheard;
+    other_.eyes.resize(eyes_.size());
+    std::vector<const Texture*> pictures;
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        const EyeFrame as = eyeFrame(eyes_[i]);
+        pictures.push_back(&other_.eyes[i].draw(plan, {as.scene, as.view, as.lens, as.exposure, 0, {}, unheard}));
+    }
+    const Composition both = composition(*pictures.front(), *pictures.back());
+    return linearImage(other_.compositor.compose(both, unheard));
+}
+
+const Texture& FrameMaker::shown(const DrawnEye& eye) {
+    return eye.refined ? *eye.refined : *eye.picture;
+}
+
+Composition FrameMaker::composition(const Texture& left, const Texture& right) const {
     return {left, right, eyes_.size() == 1 ? DisplayChoice::mono : settings_.view.display, settings_.view.swapEyes,
             settings_.render.tonemap};
 }
 
 Image FrameMaker::composed() const {
-    Image image(composed_->width(), composed_->height());
-    image.pixels = readTexture(*composed_, GL_RGB, 3);
-    for (const EyePicture& eye : eyes_) {
-        const std::vector<float> radiance = readTexture(*eye.picture, GL_RGB, 3);
+    Image image = linearImage(*composed_);
+    for (const DrawnEye& eye : eyes_) {
+        const std::vector<float> radiance = readTexture(shown(eye), GL_RGB, 3);
         const auto cut = std::count_if(radiance.begin(), radiance.end(),
                                        [](float v) { return static_cast<double>(v) >= kMostRadiance; });
         if (cut > 0) reportCut(fmt::format("{} values of the picture", cut));
@@ -278,7 +399,7 @@ void FrameMaker::present(PictureSize window) {
 
 std::size_t FrameMaker::techniqueBytes() const {
     std::size_t sum = 0;
-    for (const EyePicture& eye : eyes_) sum += eye.technique->bytes();
+    for (const DrawnEye& eye : eyes_) sum += eye.drawing.bytes();
     return sum;
 }
 

@@ -11,6 +11,8 @@
 #include "core/settings.hpp"
 #include "focus/focus_filter.hpp"
 #include "focus/traces.hpp"
+#include "frame/eye_picture.hpp"
+#include "frame/frame_planner.hpp"
 #include "frame/gaze_probe.hpp"
 #include "gl/pass.hpp"
 #include "optics/lens_preset.hpp"
@@ -27,8 +29,10 @@ struct FrameReport {
     GazeSample gaze;
     std::optional<Dioptres> underGaze;  // measured only where focus follows the gaze, and there is something to measure
     ResolvedLens lens;
-    std::string plan;           // "mipmap, msaa 4"
-    double milliseconds = 0.0;  // of the finished frame
+    Plan plan;                         // a refined view's: the reference with the samples that it has
+    std::optional<Decision> decision;  // of the governor; none where the settings name a technique
+    double budgetMs = 0.0;             // that it kept to
+    double milliseconds = 0.0;         // of the finished frame
     PassLog passes;
 };
 
@@ -54,30 +58,40 @@ class FrameMaker {
         std::optional<Pose> head;        // in the start view's frame; overrides the trace
         // Depth under the gaze is read when the GL has it, usually a frame late, instead of waiting for it.
         bool mayLag = false;
-        // More than 0: a technique that can refine a still view does so within this time, from frame to frame.
+        // Of the frame, all eyes; 0: the cheapest there is.
         double budgetMilliseconds = 0.0;
+        // A named technique that averages samples draws as many as fit into the budget and goes on with them in the next
+        // frames while the view stands still. What the governor chooses does so always.
+        bool refines = false;
+        // No frame follows: there is nothing to learn for.
+        bool alone = false;
     };
     /// What moves in the scene is where it is at the input's time, the start view's camera included.
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.
     const FrameReport& make(const Input& input);
 
+    /// Whether levels of detail may be drawn.
+    bool mayUseLevels() const { return planner_ || usesLevels(named_.technique); }
     /// What a technique that draws levels of detail is to draw from the next frame on.
     void addLevels(const std::vector<BuiltLevel>& levels);
 
     /// The last frame: read back, linear; or shown in the window's framebuffer of that size.
     Image composed() const;  // warns, once, of radiance that half floats could not hold
     void present(PictureSize window);
+    /// What the last frame shows as another plan draws it, composed, read back, linear. The frame stays as it is.
+    Image pictureBy(const Plan& plan);
 
     const View& startingView() const { return start_; }  // of the last frame's time
     std::size_t techniqueBytes() const;
     const GpuScene& scene() const { return scene_; }
 
   private:
-    struct EyePicture {
+    struct DrawnEye {
         View view;
-        std::unique_ptr<Technique> technique;
+        EyePicture drawing;
         const Texture* picture = nullptr;
+        const Texture* refined = nullptr;
     };
 
     /// Warns, once.
@@ -93,7 +107,15 @@ class FrameMaker {
         std::optional<Dioptres> vergence;
     };
     std::optional<GazeDepth> gazeDepth(const View& centre, bool mayLag);
-    Composition composition() const;
+    Decision decide(const Input& input);
+    bool unseen(double time);
+    EyeFrame eyeFrame(const DrawnEye& eye);
+    void prepare();
+    void lookAhead();
+    FramePlanner::Drew drawEyes(const Decision& decision);
+    void drawNamed(const Input& input);
+    static const Texture& shown(const DrawnEye& eye);
+    Composition composition(const Texture& left, const Texture& right) const;
 
     Settings settings_;
     GpuScene scene_;
@@ -108,9 +130,20 @@ class FrameMaker {
     FocusFilter filter_;
     GazeSample awaited_;  // the gaze whose depth is being read
     std::optional<double> lastTime_;
-    std::vector<EyePicture> eyes_;  // one, or left and right
+    std::vector<DrawnEye> eyes_;  // one, or left and right
+    Plan named_;                  // by the settings, where there is no planner
+    std::optional<FramePlanner> planner_;
+    double brightest_ = 0.0;        // radiance that a material emits, times exposure
+    std::optional<Plan> base_;      // of the eyes' pictures; none: they are faded
+    std::optional<double> lostAt_;  // since when the gaze is not valid
+    int samplesNow_ = 1;            // of a named technique that refines, in a frame
+    bool refining_ = false;         // the last frame drew so many
     Compositor compositor_;
     const Texture* composed_ = nullptr;
+    struct {
+        std::vector<EyePicture> eyes;
+        Compositor compositor;
+    } other_;  // pictureBy()
     FrameReport report_;
     mutable bool cutReported_ = false;
 };

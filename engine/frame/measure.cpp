@@ -26,7 +26,7 @@ constexpr double kRowWork = 40.0, kReferenceWork = 20.0;
 constexpr double kFramesOfARow = 12.0, kSampledFramesOfARow = 4.0;
 // With more samples than half of one of the reference's halves a technique could not be told from the reference's
 // noise.
-constexpr double kMostSamples = 0.5;
+constexpr double kMostOfAHalf = 0.5;
 
 double pixelsOf(PictureSize size) {
     return static_cast<double>(size.width) * size.height;
@@ -77,7 +77,7 @@ Measuring::Measuring(MeasureRequest request) : request_(std::move(request)), pic
 
     plans_ = measuredPlans();
     std::erase_if(plans_,
-                  [&](const Plan& plan) { return plan.samples.value_or(0) > kMostSamples * request_.samplesPerHalf; });
+                  [&](const Plan& plan) { return plan.samples.value_or(0) > kMostOfAHalf * request_.samplesPerHalf; });
     constexpr std::size_t kViews = std::size(kMeasuredBlurs) * std::size(kMeasuredFocuses);
     rowsWanted_ = request_.scenes * request_.sizes.size() * kViews * plans_.size();
     double workOfAView = kReferenceWork + 2.0 * request_.samplesPerHalf;

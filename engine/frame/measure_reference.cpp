@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint64_t kGeneratorVersion = 1;
 constexpr std::size_t kLargestShader = 1u << 20;
 // Between two looks at `stopped`.
-constexpr double kStopMilliseconds = 200.0;
+constexpr int kBetweenStops = 16;  // samples
 
 /// The shaders that take part, so that a change of lighting makes new references.
 void addShaders(ContentHash& hash) {
@@ -48,7 +48,7 @@ std::optional<Image> drawHalf(const ReferenceRequest& request, int firstSample, 
     EyeFrame frame{request.scene, request.view, request.lens, request.exposure, 0, {}, log};
     frame.samples = request.samplesPerHalf;
     frame.firstSample = firstSample;
-    frame.budgetMilliseconds = kStopMilliseconds;
+    frame.samplesNow = kBetweenStops;
     const Texture* picture = nullptr;
     do {
         if (stopped()) return std::nullopt;

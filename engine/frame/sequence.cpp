@@ -14,6 +14,7 @@ std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest
     for (int i = 0; i < request.frames && !request.stopped(); ++i) {
         FrameMaker::Input input;
         input.time = request.start + i / request.fps;
+        input.budgetMilliseconds = request.budgetMs;
         // The first frame alone pays for compiling shaders: drawn once before it counts.
         if (i == 0) maker.make(input);
         shown.push_back(maker.make(input));
@@ -30,7 +31,7 @@ std::string frameLogCsv(std::span<const FrameReport> frames) {
         csv += fmt::format("{:.6f},{:.5f},{:.5f},{},{},{:.6f},{:.4f},\"{}\",{:.3f}\n", f.time, f.gaze.position.x,
                            f.gaze.position.y, f.gaze.valid ? 1 : 0,
                            f.underGaze ? fmt::format("{:.6f}", f.underGaze->value) : "", f.lens.lens.focus.value,
-                           f.lens.apertureDiameter.value * 1e3, f.plan, f.milliseconds);
+                           f.lens.apertureDiameter.value * 1e3, planText(f.plan), f.milliseconds);
     return csv;
 }
 

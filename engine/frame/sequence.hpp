@@ -15,6 +15,7 @@ struct SequenceRequest {
     std::string title;  // the scene's name
     int frames = 1;
     double fps = 30.0;                                     // frame i is at start + i / fps seconds
+    double budgetMs = 0.0;                                 // of a frame
     std::filesystem::path folder;                          // must be there
     double start = 0.0;                                    // seconds
     std::function<bool()> stopped = [] { return false; };  // asked before each frame

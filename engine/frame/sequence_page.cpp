@@ -53,23 +53,29 @@ std::string distanceText(double dioptres) {
     return metres < 1.0 ? fmt::format("{:.1f} cm", metres * 100.0) : fmt::format("{:.2f} m", metres);
 }
 
-/// One curve over time in its own scale; `unit` labels the top.
+/// One curve over time in its own scale; `unit` labels the top. A `limit` is drawn, too; 0: none.
 std::string curve(std::span<const FrameReport> frames, double (*value)(const FrameReport&), const char* color,
-                  const char* unit, int top) {
+                  const char* unit, int top, double limit = 0.0) {
     constexpr double kWidth = 1000.0, kHeight = 90.0;
-    double most = 1e-9;
+    double most = std::max(limit, 1e-9);
     for (const FrameReport& f : frames) most = std::max(most, value(f));
     std::string points;
     const double last = std::max<double>(1.0, static_cast<double>(frames.size()) - 1.0);
     for (std::size_t i = 0; i < frames.size(); ++i)
         points += fmt::format("{:.1f},{:.1f} ", 60.0 + kWidth * static_cast<double>(i) / last,
                               top + kHeight * (1.0 - value(frames[i]) / most));
-    return fmt::format(
-        "<line x1='60' x2='1060' y1='{0}' y2='{0}' stroke='var(--line)'/>"
-        "<text x='0' y='{1}'>{2} {3}</text><text x='0' y='{0}'>0</text>"
-        "<polyline fill='none' stroke='var({4})' stroke-width='2' points='{5}'/>",
-        top + static_cast<int>(kHeight), top + 10,
-        most < 100.0 ? fmt::format("{:.3g}", most) : fmt::format("{:.0f}", most), unit, color, points);
+    const std::string line =
+        limit > 0.0 ? fmt::format(
+                          "<line x1='60' x2='1060' y1='{0:.1f}' y2='{0:.1f}' stroke='var(--ink)' "
+                          "stroke-dasharray='4 4'/><text x='66' y='{1:.1f}'>budget {2:.4g} ms</text>",
+                          top + kHeight * (1.0 - limit / most), top + kHeight * (1.0 - limit / most) - 4.0, limit)
+                    : "";
+    return line + fmt::format(
+                      "<line x1='60' x2='1060' y1='{0}' y2='{0}' stroke='var(--line)'/>"
+                      "<text x='0' y='{1}'>{2} {3}</text><text x='0' y='{0}'>0</text>"
+                      "<polyline fill='none' stroke='var({4})' stroke-width='2' points='{5}'/>",
+                      top + static_cast<int>(kHeight), top + 10,
+                      most < 100.0 ? fmt::format("{:.3g}", most) : fmt::format("{:.0f}", most), unit, color, points);
 }
 
 }  // namespace
@@ -81,15 +87,17 @@ std::string sequencePage(const SequenceRequest& request, std::span<const FrameRe
         cards += fmt::format(
             "<figure><img loading='lazy' src='frame_{:04d}.png' alt='frame {}'><figcaption>{:.2f} s &middot; focus "
             "<b>{}</b> ({:.2f} D) &middot; pupil {:.1f} mm &middot; {} &middot; <b>{:.1f} "
-            "ms</b></figcaption></figure>\n",
+            "ms</b>{}</figcaption></figure>\n",
             i, i, f.time, distanceText(f.lens.lens.focus.value), f.lens.lens.focus.value,
-            f.lens.apertureDiameter.value * 1e3, escaped(f.plan), f.milliseconds);
+            f.lens.apertureDiameter.value * 1e3, escaped(planText(f.plan)), f.milliseconds,
+            f.decision ? fmt::format(" of {:.4g} ms", f.budgetMs) : "");
     }
     const std::string plots =
         curve(
             frames, [](const FrameReport& f) { return std::max(0.0, f.lens.lens.focus.value); }, "--a", "D", 10) +
         curve(
-            frames, [](const FrameReport& f) { return f.milliseconds; }, "--b", "ms", 130);
+            frames, [](const FrameReport& f) { return f.milliseconds; }, "--b", "ms", 130,
+            frames.front().decision ? request.budgetMs : 0.0);
     return fmt::format(
         "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
         "<title>Dioptre: {0}</title><style>{1}</style>\n<h1>{0}</h1>"

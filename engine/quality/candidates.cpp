@@ -43,6 +43,13 @@ std::optional<PricedPlan> Candidates::within(const Plan& method, double limit, d
     return priced(withSamples(method, std::clamp(kLeastSamples + more, double{kLeastSamples}, most)));
 }
 
+std::optional<PricedPlan> Candidates::best(double limit) const {
+    std::optional<PricedPlan> best;
+    for (const Plan& method : methods())
+        if (const auto found = within(method, limit); found && (!best || found->error < best->error)) best = found;
+    return best;
+}
+
 std::optional<PricedPlan> Candidates::safest(double limit) const {
     std::optional<PricedPlan> best;
     for (const Plan& method : methods())

@@ -34,7 +34,9 @@ class Candidates {
     /// The method with the most samples of which `margin` times the price is at most `limit` ms; none where the least
     /// are too dear.
     std::optional<PricedPlan> within(const Plan& method, double limit, double margin = 1.0) const;
-    /// Of what fits even if it is as dear as its price is unsure, the one with the least error; none where nothing does.
+    /// Of what fits, the one with the least error; none where nothing does.
+    std::optional<PricedPlan> best(double limit) const;
+    /// The same of what fits even if it is as dear as its price is unsure.
     std::optional<PricedPlan> safest(double limit) const;
     /// What costs the least, whatever that is.
     PricedPlan cheapest() const;

@@ -247,9 +247,15 @@ Decision Governor::decision(const Candidates& candidates, const Situation& s, Mo
     }
     for (const Plan& plan : drawn_) d.foreseenMs += candidates.priced(plan).milliseconds;
     d.expectedError = candidates.priced(d.plan).error;
-    if (s.requirements.mayRefine && !s.unseen && s.budgetMs > 0.0)
-        d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, kTarget * s.budgetMs,
-                        candidates.samplesToReach(*current_)};
+    refined_.reset();
+    if (s.requirements.mayRefine && !s.unseen) {
+        const Plan reference{TechniqueChoice::reference, {}, {}, {}};
+        if (const auto now = candidates.within(reference, kTarget * s.budgetMs)) {
+            refined_ = now->plan;
+            d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, *now->plan.samples,
+                            candidates.samplesToReach(*current_)};
+        }
+    }
     return d;
 }
 
@@ -260,15 +266,19 @@ Decision Governor::decide(const Situation& situation) {
     s.view = sane(s.view);
     advanceClock(s);
     if (!rested_) ++enteredFrames_;
-    if (s.lastMs) prices_.learn(drawn_, drawnView_, *s.lastMs);
-    const bool missed = s.lastMs && *s.lastMs > s.budgetMs;
+    if (s.lastMs) {
+        if (!s.lastRefined) prices_.learn(drawn_, drawnView_, *s.lastMs);
+        if (s.lastRefined && refined_) prices_.learn({&*refined_, 1}, drawnView_, *s.lastMs);
+    }
+    const bool missed = !s.lastRefined && s.lastMs && *s.lastMs > s.budgetMs;
 
     if (!errors_ || s.view != drawnView_) errors_.emplace(table_, s.view);
     const Candidates candidates(prices_, *errors_, s.view, s.requirements);
     const bool first = !current_;
     // Carefully: what the table says may be of another machine
     if (first) {
-        current_ = candidates.adequate();
+        const auto best = s.alone ? candidates.best(kTarget * s.budgetMs) : std::nullopt;
+        current_ = best ? best->plan : candidates.adequate();
         sharp_ = !s.requirements.blur;
     }
 

@@ -34,9 +34,11 @@ struct Situation {
     // What the frame of the last decision took, all eyes. None, or nonsense: nothing is learnt. None where something else
     // was drawn.
     std::optional<double> lastMs;
+    bool lastRefined = false;  // that frame drew the refinement in place of the plan
     ViewClass view;
     Requirements requirements;
     bool unseen = false;  // a saccade or a blink
+    bool alone = false;   // nothing was learnt and no frame follows: begins with what the table foresees to be best
 };
 
 enum class PlanChange {
@@ -56,8 +58,8 @@ struct Decision {
     /// Instead of drawing `plan` again, a view where nothing moves may go on with the reference.
     struct Refinement {
         Plan plan;
-        double milliseconds = 0.0;  // of a frame
-        int shownFrom = 0;          // samples: with fewer the picture of `plan` is closer
+        int samplesNow = 0;  // that fit into this frame
+        int shownFrom = 0;   // samples: with fewer the picture of `plan` is closer
     };
     Plan plan;
     std::optional<Fade> fade;
@@ -136,6 +138,7 @@ class Governor {
     double speculativeWait_ = kSpeculativeWait,
            speculativeAfter_ = kSpeculativeWait;  // seconds, own clock: when what is dear but unsure may be tried
     std::vector<Plan> drawn_;                     // as last decided
+    std::optional<Plan> refined_;                 // with the samples of a frame: what may have been drawn instead
     ViewClass drawnView_;
     std::optional<ExpectedErrors> errors_;  // in that view
 };

@@ -54,8 +54,12 @@ bool maySize(const Plan& plan) {
     return usesMsaa(plan.technique) && plan.msaa == 0;
 }
 
-Plan planOf(const RenderSettings& settings) {
-    Plan plan{settings.technique, {}, {}, {}};
+std::optional<Plan> planOf(const RenderSettings& settings) {
+    std::optional<TechniqueChoice> technique = settings.technique;
+    if (!technique && settings.show.stage != ShowChoice::none)
+        technique = settings.show.stage == ShowChoice::lod ? TechniqueChoice::accumulate : TechniqueChoice::mipmap;
+    if (!technique) return std::nullopt;
+    Plan plan{*technique, {}, {}, {}};
     if (usesMsaa(plan.technique)) plan.msaa = settings.msaa;
     if (usesSamples(plan.technique)) plan.samples = settings.samples.value_or(defaultSamples(plan.technique));
     if (plan.technique == TechniqueChoice::accumulate) plan.subsamples = settings.subsamples;

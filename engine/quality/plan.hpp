@@ -47,8 +47,9 @@ inline constexpr int kLeastEighths = 4;
 /// Whether a plan may be drawn smaller: only without msaa, whose samples are worth more than as many pixels.
 bool maySize(const Plan& plan);
 
-/// The plan that settings name.
-Plan planOf(const RenderSettings& settings);
+/// The plan that settings name; none where they leave it to the governor. A stage to be shown is of the technique that
+/// has it.
+std::optional<Plan> planOf(const RenderSettings& settings);
 
 /// "mipmap, msaa 4"; "accumulate, 32 samples, 4 sub-samples each"; "pinhole, msaa 0, 6/8 size"
 std::string planText(const Plan& plan);

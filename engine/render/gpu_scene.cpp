@@ -234,19 +234,22 @@ unsigned GpuScene::featuresOf(const State& state, Phase phase, bool spaced) cons
     return vertex | shading | seen | reading;
 }
 
-VergenceRange GpuScene::vergenceRange(const View& view) const {
+ViewContents GpuScene::contents(const View& view) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
-    VergenceRange range;
+    ViewContents seen;
     for (const Item& item : items_) {
         const ViewBox box = boxInView(viewFrom * item.worldFromMesh, item.bounds);
         if (!mayBeSeen(view, nullptr, box)) continue;
         const double near = std::max(view.near.value, box.nearest());
         const double far = std::max(near, box.farthest());
-        range.nearest = range.anything ? std::max(range.nearest, 1.0 / near) : 1.0 / near;
-        range.farthest = range.anything ? std::min(range.farthest, 1.0 / far) : 1.0 / far;
-        range.anything = true;
+        seen.nearest = seen.anything ? std::max(seen.nearest, 1.0 / near) : 1.0 / near;
+        seen.farthest = seen.anything ? std::min(seen.farthest, 1.0 / far) : 1.0 / far;
+        seen.anything = true;
+        seen.blended = seen.blended || item.state.blended;
+        if (item.state.topology == Topology::triangles)
+            seen.triangles += levels_[item.primitive].indices.front().count / 3;
     }
-    return range;
+    return seen;
 }
 
 int GpuScene::mostMatrices() {

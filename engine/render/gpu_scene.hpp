@@ -30,10 +30,12 @@
 
 namespace dioptre {
 
-/// Vergences in dioptres; {0, 0, false} when nothing is seen.
-struct VergenceRange {
-    double nearest = 0.0, farthest = 0.0;
+/// What a view sees by the bounding boxes; where there is nothing, `anything` is false and all is 0.
+struct ViewContents {
+    double nearest = 0.0, farthest = 0.0;  // vergences, D
     bool anything = false;
+    bool blended = false;         // some of it is seen through
+    std::uint64_t triangles = 0;  // at full detail
 };
 
 /// How finely textures are read.
@@ -80,8 +82,8 @@ class GpuScene {
     void drawThroughLens(const DrawList& list, std::span<const glm::mat4> clipFromView, float exposure,
                          const TextureFilter& filter, int firstLayer = 0) const;
 
-    /// Of what `view` sees: conservative, from the pose's bounding boxes, nearest bounded by the view's near plane.
-    VergenceRange vergenceRange(const View& view) const;
+    /// Conservative: from the pose's bounding boxes, nearest bounded by the view's near plane.
+    ViewContents contents(const View& view) const;
 
     std::size_t bytes() const;
     /// Triangles sent to the GL so far, counted once for each matrix.

@@ -33,7 +33,6 @@ void SampleLayers::clear(int first, int count) const {
 }
 
 void SampleSum::begin(const EyeFrame& frame) {
-    start_ = nowMilliseconds();
     const auto& [width, height] = std::pair(frame.view.width, frame.view.height);
     const bool resized = !sum_ || sum_.width() != width || sum_.height() != height;
     if (resized) {
@@ -50,7 +49,7 @@ void SampleSum::begin(const EyeFrame& frame) {
     }
     const Key key{&frame.scene,      frame.view,       frame.lens, frame.exposure,       frame.samples,
                   frame.firstSample, frame.subsamples, frame.show, frame.scene.version()};
-    if (frame.budgetMilliseconds > 0.0 && key == key_ && !resized) return;
+    if (frame.samplesNow > 0 && key == key_ && !resized) return;
     key_ = key;
     drawn_ = 0;
     weight_ = 0.0;
@@ -59,12 +58,9 @@ void SampleSum::begin(const EyeFrame& frame) {
 }
 
 void SampleSum::refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw) {
-    while (drawn_ < frame.samples) {
-        draw(std::min(most, frame.samples - drawn_));
-        if (frame.budgetMilliseconds <= 0.0) continue;
-        glFinish();
-        if (nowMilliseconds() - start_ >= frame.budgetMilliseconds) break;
-    }
+    const int left = frame.samples - drawn_;
+    const int end = drawn_ + (frame.samplesNow > 0 ? std::min(left, frame.samplesNow) : left);
+    while (drawn_ < end) draw(std::min(most, end - drawn_));
 }
 
 void SampleSum::add(const SampleLayers& layers, int count) {

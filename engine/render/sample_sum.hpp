@@ -34,11 +34,11 @@ class SampleLayers {
 /// The sum of samples, 32-bit floats, and their mean. It can go on over several frames.
 class SampleSum {
   public:
-    /// Ready for more samples of `frame`: those of former frames are kept where it has a budget and nothing else that
-    /// the picture depends on is new.
+    /// Ready for more samples of `frame`: those of former frames are kept where it draws some of them at a time and
+    /// nothing that the picture depends on is new.
     void begin(const EyeFrame& frame);
     /// Calls `draw` with the number of samples, at most `most`, that it is to draw and add next, until there are as many
-    /// as the frame asks for or, since begin(), its budget is spent.
+    /// as the frame asks for, at all or now.
     void refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw);
     /// Of the samples asked for; counts those that add() and addDrawn() were told of.
     int drawn() const { return drawn_; }
@@ -68,7 +68,6 @@ class SampleSum {
     };
 
     Key key_;
-    double start_ = 0.0;
     int drawn_ = 0;
     double weight_ = 0.0;
     Texture sum_, output_;

@@ -27,8 +27,9 @@ struct EyeFrame {
     int samples = 512;    // reference, accumulate: points of the lens, >= 1
     int subsamples = 0;   // accumulate: more points of the lens for each, on average; 0..16
     int firstSample = 0;  // reference, accumulate: where in the sequence they begin
-    // reference, accumulate: 0 draws all samples now; more: as many as fit, continuing while nothing else here changes.
-    double budgetMilliseconds = 0.0;
+    // reference, accumulate: 0 draws all samples now; more: at most so many more in this picture, which goes on from the
+    // last one while nothing else here changes.
+    int samplesNow = 0;
 };
 
 class Technique {
@@ -44,6 +45,10 @@ class Technique {
 
     /// How much of what was asked for the last picture has, 0..1; below 1 while it still refines.
     virtual double progress() const { return 1.0; }
+
+    /// Reversed depth of (one point of the lens in) the picture drawn last, at its size: a texture, or the first layer of
+    /// an array.
+    virtual const Texture& depth() const = 0;
 
     /// Textures held, the geometry pass's included.
     virtual std::size_t bytes() const = 0;

@@ -83,7 +83,12 @@ class ProgramTest : public testing::Test {
     Outcome run(const std::vector<std::string>& arguments) const { return runProgram(DIOPTRE_PROGRAM, arguments); }
 
     /// The same, of the small scene, which must work.
+    /// The technique is mipmap where the options say nothing about it.
     Outcome draw(std::vector<std::string> options) const {
+        const bool said = std::any_of(options.begin(), options.end(), [](const std::string& option) {
+            return option == "--technique" || option == "--show" || option == "--config";
+        });
+        if (!said) options.insert(options.begin(), {"--technique", "mipmap"});
         options.insert(options.begin(), {"render", "scene.gltf", "--size", "40x30"});
         Outcome outcome = run(options);
         EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -89,9 +89,9 @@ TEST_F(RenderTest, BlursWhatIsOutOfFocusAndOnlyThat) {
 }
 
 TEST_F(RenderTest, PrintedConfigDrawsTheSamePicture) {
-    const std::vector<std::string> options = {"--aperture-mm", "12.3",      "--gaze",    "0.3,0.5", "--ipd-mm",
-                                              "61.7",          "--display", "sbs",       "--msaa",  "0",
-                                              "--exposure",    "-0.3",      "--tonemap", "neutral"};
+    const std::vector<std::string> options = {
+        "--aperture-mm", "12.3", "--gaze",     "0.3,0.5", "--ipd-mm",  "61.7",    "--display",   "sbs",
+        "--msaa",        "0",    "--exposure", "-0.3",    "--tonemap", "neutral", "--technique", "mipmap"};
     std::vector<std::string> printing = options;
     printing.insert(printing.begin(), {"render", "--size", "40x30", "--print-config"});
     const Outcome printed = run(printing);

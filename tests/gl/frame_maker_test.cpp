@@ -20,6 +20,7 @@ Settings someSettings() {
     Settings s;
     s.view.size = {192, 144};
     s.lens.lens = "eye";
+    s.render.technique = TechniqueChoice::mipmap;
     s.render.msaa = 0;
     s.focus.dynamics = DynamicsChoice::instant;
     return s;

@@ -117,7 +117,7 @@ TEST_F(AccumulateGLTest, FinerPicturesComeFrameByFrame) {
     const GpuScene scene(manyDepths(shot.view).scene());
     shot.lens = lensFor(shot.view, 1.0, 0.5, 1.6);
     const Image atOnce = draw(scene, shot, 24, 2);
-    EyeFrame frame{scene, shot.view, shot.lens, 1.0f, 0, {}, log_, 24, 2, 0, 1e-3};
+    EyeFrame frame{scene, shot.view, shot.lens, 1.0f, 0, {}, log_, 24, 2, 0, 4};
     Accumulate another;
     int frames = 0;
     do {

@@ -481,7 +481,7 @@ TEST_F(ExtremesGLTest, AnEmptySceneIsBlack) {
             const Image picture = finite(technique, scene, shot, "empty scene");
             EXPECT_EQ(worstDifference(picture, constantImage(192, 144, glm::vec3(0.0f))).linear, 0.0);
         }
-    EXPECT_FALSE(scene.vergenceRange(testView()).anything);
+    EXPECT_FALSE(scene.contents(testView()).anything);
 }
 
 TEST_F(ExtremesGLTest, ThingsMayPassThroughTheNearPlane) {
@@ -491,7 +491,7 @@ TEST_F(ExtremesGLTest, ThingsMayPassThroughTheNearPlane) {
     b.box({0.011, -0.3, -0.2}, {0.06, 0.3, 0.2}, b.unlit({0.2f, 0.4f, 0.8f}));
     const GpuScene scene(b.scene());
     // Bounded by the near plane, 1/0.05 D.
-    EXPECT_DOUBLE_EQ(scene.vergenceRange(testView()).nearest, 20.0);
+    EXPECT_DOUBLE_EQ(scene.contents(testView()).nearest, 20.0);
     for (const TechniqueChoice technique : kTechniques)
         for (const double focus : {0.0, 1.0, 20.0}) {
             Shot shot;

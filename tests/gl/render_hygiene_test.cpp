@@ -1,9 +1,9 @@
 // What a frame leaves behind in the GL: no errors, no objects, the state that the next one relies on.
-#include <array>
 #include <string>
 
 #include "frame/frame_maker.hpp"
 #include "gl_fixture.hpp"
+#include "gl_objects.hpp"
 #include "pictures.hpp"
 
 namespace dioptre {
@@ -13,42 +13,10 @@ using namespace test;
 
 class HygieneGLTest : public GlTest {
   protected:
-    /// Drivers may give each new object a name beyond all before it.
-    static GLuint greatestName() {
-        std::array<GLuint, 6> next{};
-        glGenTextures(1, &next[0]);
-        glGenBuffers(1, &next[1]);
-        glGenFramebuffers(1, &next[2]);
-        glGenVertexArrays(1, &next[3]);
-        next[4] = glCreateProgram();
-        glGenSamplers(1, &next[5]);
-        glDeleteTextures(1, &next[0]);
-        glDeleteBuffers(1, &next[1]);
-        glDeleteFramebuffers(1, &next[2]);
-        glDeleteVertexArrays(1, &next[3]);
-        glDeleteProgram(next[4]);
-        glDeleteSamplers(1, &next[5]);
-        return *std::max_element(next.begin(), next.end());
-    }
-    /// Textures, buffers, framebuffers, vertex arrays, programs, samplers alive.
-    static std::array<int, 6> alive() {
-        glUseProgram(0);  // a program in use outlives its deletion
-        std::array<int, 6> count{};
-        const GLuint last = greatestName();
-        for (GLuint name = 1; name <= last; ++name) {
-            count[0] += glIsTexture(name);
-            count[1] += glIsBuffer(name);
-            count[2] += glIsFramebuffer(name);
-            count[3] += glIsVertexArray(name);
-            count[4] += glIsProgram(name);
-            count[5] += glIsSampler(name);
-        }
-        return count;
-    }
-    static void expectSame(const std::array<int, 6>& before, const std::string& what) {
-        const char* const kNames[] = {"textures", "buffers", "framebuffers", "vertex arrays", "programs", "samplers"};
-        const std::array<int, 6> after = alive();
-        for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(after[i], before[i]) << what << ": " << kNames[i];
+    static void expectSame(const GlObjects& before, const std::string& what) {
+        const GlObjects after = glObjectsAlive();
+        for (std::size_t i = 0; i < after.size(); ++i)
+            EXPECT_EQ(after[i], before[i]) << what << ": " << kGlObjectNames[i];
     }
 };
 
@@ -127,7 +95,7 @@ TEST_F(HygieneGLTest, ObjectsDoNotPileUpOverFrames) {
             draw(*technique, scene, aShot(96, 64, 4));
         };
         frames(15);
-        const auto before = alive();
+        const auto before = glObjectsAlive();
         const std::size_t bytes = technique->bytes();
         frames(50);
         expectSame(before, std::string(techniqueName(choice)));
@@ -152,14 +120,14 @@ TEST_F(HygieneGLTest, ObjectsDoNotPileUpOverStagesShown) {
             draw(*technique, scene, aShot(96, 64, 0));
         };
         frames(14);
-        const auto before = alive();
+        const auto before = glObjectsAlive();
         frames(35);
         expectSame(before, std::string(techniqueName(choice)));
     }
 }
 
 TEST_F(HygieneGLTest, EverythingIsGivenBack) {
-    const auto before = alive();
+    const auto before = glObjectsAlive();
     {
         Settings s;
         s.view.size = {96, 72};
@@ -180,7 +148,7 @@ TEST_F(HygieneGLTest, FrameMakersObjectsDoNotPileUp) {
         maker.make({0.02 * i, GazeSample{0.02 * i, {0.05 + 0.1 * (i % 10), 0.1 + 0.08 * (i % 7)}, true}, std::nullopt});
     };
     for (int i = 0; i < 10; ++i) frame(i);
-    const auto before = alive();
+    const auto before = glObjectsAlive();
     for (int i = 10; i < 60; ++i) frame(i);
     expectSame(before, "50 frames");
 }

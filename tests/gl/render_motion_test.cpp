@@ -156,7 +156,7 @@ TEST_F(MotionGLTest, AStillMomentRefinesAndAnotherBeginsAnew) {
     PassLog log;
     EyeFrame frame{gpu, shot.view, shot.lens, 1.0f, 0, {}, log};
     frame.samples = 64;
-    frame.budgetMilliseconds = 1e-6;  // one batch a frame
+    frame.samplesNow = 4;
     technique->draw(frame);
     const double once = technique->progress();
     pose(gpu, scene, 2.0);  // the same pose, a period later
@@ -167,7 +167,7 @@ TEST_F(MotionGLTest, AStillMomentRefinesAndAnotherBeginsAnew) {
     EXPECT_DOUBLE_EQ(technique->progress(), once) << "what was drawn of the pose before is gone";
     Image last;
     while (technique->progress() < 1.0) last = readPicture(technique->draw(frame));
-    frame.budgetMilliseconds = 0.0;
+    frame.samplesNow = 0;
     EXPECT_EQ(last.pixels, readPicture(makeTechnique(TechniqueChoice::reference)->draw(frame)).pixels);
 }
 
@@ -181,7 +181,7 @@ TEST_F(MotionGLTest, BoundsAndWhatFollowsFromThemAreOfTheMoment) {
     for (const double t : {0.0, 0.8, 1.0, 1.2}) {
         pose(gpu, scene, t);
         const double away = t < 1.0 ? 4.0 - 3.0 * t : 1.0 + 3.0 * (t - 1.0);
-        const VergenceRange range = gpu.vergenceRange(shot.view);
+        const ViewContents range = gpu.contents(shot.view);
         EXPECT_TRUE(range.anything);
         EXPECT_NEAR(range.nearest, 1.0 / away, 1e-3) << t;
         EXPECT_NEAR(range.farthest, 1.0 / away, 1e-3) << t;

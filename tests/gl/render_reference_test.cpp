@@ -137,7 +137,7 @@ TEST_F(ReferenceGLTest, AStillViewRefinesToTheSamePicture) {
     PassLog log;
     EyeFrame frame{scene, shot.view, shot.lens, 1.0f, 0, {}, log};
     frame.samples = 37;
-    frame.budgetMilliseconds = 1e-6;  // one batch a frame
+    frame.samplesNow = 4;
     double progress = 0.0;
     int frames = 0;
     for (; progress < 1.0; ++frames) {

@@ -81,6 +81,7 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"screen-width-mm", "9"},
                                      {"screen-distance-mm", "9"},
                                      {"technique", "pinhole"},
+                                     {"budget-ms", "20"},
                                      {"samples", "64"},
                                      {"subsamples", "2"},
                                      {"blades", "6"},

@@ -20,14 +20,23 @@ TEST(PlanTest, HasTheDialsOfItsTechnique) {
     RenderSettings settings;
     settings.msaa = 0;
     settings.technique = TechniqueChoice::mipmap;
-    EXPECT_THAT(planOf(settings).dials(), ElementsAre(Pair("msaa", 0)));
+    EXPECT_THAT(planOf(settings)->dials(), ElementsAre(Pair("msaa", 0)));
     settings.technique = TechniqueChoice::accumulate;
     settings.subsamples = 8;
-    EXPECT_THAT(planOf(settings).dials(), ElementsAre(Pair("samples", 32), Pair("subsamples", 8)));
+    EXPECT_THAT(planOf(settings)->dials(), ElementsAre(Pair("samples", 32), Pair("subsamples", 8)));
     settings.technique = TechniqueChoice::reference;
-    EXPECT_THAT(planOf(settings).dials(), ElementsAre(Pair("samples", 512)));
+    EXPECT_THAT(planOf(settings)->dials(), ElementsAre(Pair("samples", 512)));
     settings.samples = 7;
-    EXPECT_THAT(planOf(settings).dials(), ElementsAre(Pair("samples", 7)));
+    EXPECT_THAT(planOf(settings)->dials(), ElementsAre(Pair("samples", 7)));
+}
+
+TEST(PlanTest, WhereNobodyNamesATechniqueOnlyAStageToBeShownDoes) {
+    RenderSettings settings;
+    EXPECT_FALSE(planOf(settings).has_value());
+    settings.show.stage = ShowChoice::dob;
+    EXPECT_EQ(planOf(settings)->technique, TechniqueChoice::mipmap);
+    settings.show.stage = ShowChoice::lod;
+    EXPECT_EQ(planOf(settings)->technique, TechniqueChoice::accumulate);
 }
 
 TEST(PlanTest, AMethodIsAPlanWithoutItsSamples) {

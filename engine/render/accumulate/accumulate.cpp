@@ -159,7 +159,7 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
 const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     layers_.resize(frame.view.width, frame.view.height, GpuScene::mostMatrices());
     EyeFrame anew = frame;
-    anew.budgetMilliseconds = 0.0;
+    anew.samplesNow = 0;
     sum_.begin(anew);
     frame.scene.see(list_, frame.view, nullptr);
     makePlan(frame);

@@ -31,6 +31,7 @@ class Accumulate final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
     double progress() const override { return sum_.progress(); }
+    const Texture& depth() const override { return layers_.depths(); }
     std::size_t bytes() const override;
 
     /// For tests: what a view's plan is made of.

@@ -21,8 +21,8 @@ void setLayers(const Program& program, const CocTransform& coc, float baseLarges
 Mipmap::Blur Mipmap::requiredBlur(const EyeFrame& frame) {
     Blur blur;
     blur.coc = cocTransform(frame);
-    const VergenceRange range = frame.scene.vergenceRange(frame.view);
-    const auto nearest = static_cast<float>(range.nearest * frame.view.near.value);
+    const ViewContents seen = frame.scene.contents(frame.view);
+    const auto nearest = static_cast<float>(seen.nearest * frame.view.near.value);
     // The background, infinitely far, counts too: it is seen wherever nothing is. No less than the radius below which
     // a foreground belongs to the base layer.
     blur.base = std::clamp(blur.coc.bias, mipmap::kFrontComplete, mipmap::kMostBaseRadius);

@@ -45,6 +45,7 @@ namespace dioptre {
 class Mipmap final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
+    const Texture& depth() const override { return geometry_.depth(); }
     std::size_t bytes() const override;
     std::optional<double> fetchesPerPixel() const override;
 

@@ -11,6 +11,7 @@ namespace dioptre {
 class Pinhole final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
+    const Texture& depth() const override { return geometry_.depth(); }
     std::size_t bytes() const override { return geometry_.bytes(); }
     std::optional<double> fetchesPerPixel() const override { return GeometryPass::fetchesPerPixel(msaa_); }
 

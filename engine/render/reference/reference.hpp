@@ -19,6 +19,7 @@ class Reference final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
     double progress() const override { return sum_.progress(); }
+    const Texture& depth() const override { return layers_.depths(); }
     std::size_t bytes() const override { return geometry_.bytes() + layers_.bytes() + sum_.bytes(); }
     /// Each sample is read once, the sum once.
     std::optional<double> fetchesPerPixel() const override { return sum_.drawn() + 1.0; }

@@ -1,0 +1,86 @@
+#include "frame/eye_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dioptre {
+
+const Texture& EyePicture::drawAtPlansSize(const Plan& plan, const EyeFrame& frame) {
+    std::unique_ptr<Technique>& technique = techniques_[static_cast<std::size_t>(plan.technique)];
+    if (!technique) technique = makeTechnique(plan.technique);
+    drawnBy_ = technique.get();
+    View view = frame.view;
+    const auto sized = [&](int side) { return std::max(1, static_cast<int>(std::lround(side * plan.eighths / 8.0))); };
+    view.width = sized(view.width);
+    view.height = sized(view.height);
+    EyeFrame sizedFrame{frame.scene, view, frame.lens, frame.exposure, 0, frame.show, frame.log};
+    apply(plan, sizedFrame);
+    sizedFrame.samplesNow = frame.samplesNow;
+    return technique->draw(sizedFrame);
+}
+
+/// Over what is in `stretched_` with that weight.
+void EyePicture::stretch(const Texture& picture, double weight, const EyeFrame& frame) {
+    PassScope scope(frame.log, weight < 1.0 ? "fade" : "stretch");
+    const int width = frame.view.width, height = frame.view.height;
+    if (!stretched_ || stretched_.width() != width || stretched_.height() != height) {
+        stretched_ = Texture({GL_RGBA16F, width, height}, "stretched picture");
+        stretched_.setLinear(false);
+        const Framebuffer::Attachment color[] = {{&stretched_}};
+        target_ = Framebuffer(color, nullptr, "stretched picture");
+    }
+    if (!linear_) {
+        stretchPass_ = FullscreenPass("common/stretch.frag.glsl");
+        GLuint name = 0;
+        glCreateSamplers(1, &name);
+        linear_ = GlSampler(name);
+        for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+            glSamplerParameteri(name, wrap, GL_CLAMP_TO_EDGE);
+        glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    }
+    target_.bind();
+    picture.bind(0);
+    glBindSampler(0, linear_.name());
+    stretchPass_.program().set("size", glm::vec2(width, height));
+    if (weight < 1.0) {
+        glEnable(GL_BLEND);
+        glBlendColor(0.0f, 0.0f, 0.0f, static_cast<float>(weight));
+        glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    }
+    stretchPass_.draw();
+    glDisable(GL_BLEND);
+    glBindSampler(0, 0);
+}
+
+const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
+    const Texture& picture = drawAtPlansSize(plan, frame);
+    if (picture.width() == frame.view.width && picture.height() == frame.view.height) return picture;
+    stretch(picture, 1.0, frame);
+    return stretched_;
+}
+
+const Texture& EyePicture::fade(const Plan& from, const Plan& to, double weight, const EyeFrame& frame) {
+    stretch(drawAtPlansSize(from, frame), 1.0, frame);
+    stretch(drawAtPlansSize(to, frame), weight, frame);
+    return stretched_;
+}
+
+const Texture& EyePicture::refine(const Plan& plan, int samplesNow, const EyeFrame& frame) {
+    if (!refining_) refining_ = makeTechnique(plan.technique);
+    EyeFrame more{frame.scene, frame.view, frame.lens, frame.exposure, 0, frame.show, frame.log};
+    apply(plan, more);
+    more.samplesNow = samplesNow;
+    const Texture& picture = refining_->draw(more);
+    refinedSamples_ = static_cast<int>(std::lround(refining_->progress() * more.samples));
+    return picture;
+}
+
+std::size_t EyePicture::bytes() const {
+    std::size_t sum = stretched_ ? stretched_.bytes() : 0;
+    for (const auto& technique : techniques_)
+        if (technique) sum += technique->bytes();
+    return refining_ ? sum + refining_->bytes() : sum;
+}
+
+}  // namespace dioptre

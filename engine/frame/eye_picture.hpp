@@ -1,0 +1,43 @@
+// One eye's picture as plans say: techniques made when first needed, smaller pictures enlarged, two plans faded, a still
+// view refined.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "gl/objects.hpp"
+#include "gl/program.hpp"
+#include "quality/plan.hpp"
+#include "render/technique.hpp"
+
+namespace dioptre {
+
+class EyePicture {
+  public:
+    /// By one plan; of frame.view's size, valid until the next call of the same kind.
+    const Texture& draw(const Plan& plan, const EyeFrame& frame);
+    /// `weight`, 0..1, of `to` over `from`.
+    const Texture& fade(const Plan& from, const Plan& to, double weight, const EyeFrame& frame);
+    /// Goes on with `plan` by `samplesNow` samples, in buffers of its own: what draw() gave stays as it is.
+    const Texture& refine(const Plan& plan, int samplesNow, const EyeFrame& frame);
+    int refinedSamples() const { return refinedSamples_; }
+
+    /// Of the technique that drew last. Refining draws nothing that counts.
+    const Technique& technique() const { return *drawnBy_; }
+    std::size_t bytes() const;
+
+  private:
+    const Texture& drawAtPlansSize(const Plan& plan, const EyeFrame& frame);
+    void stretch(const Texture& picture, double weight, const EyeFrame& frame);
+
+    std::array<std::unique_ptr<Technique>, std::size(kTechniques)> techniques_;
+    std::unique_ptr<Technique> refining_;
+    const Technique* drawnBy_ = nullptr;
+    int refinedSamples_ = 0;
+    FullscreenPass stretchPass_;
+    GlSampler linear_;
+    Texture stretched_;
+    Framebuffer target_;
+};
+
+}  // namespace dioptre
