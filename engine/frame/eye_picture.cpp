@@ -19,15 +19,15 @@ const Texture& EyePicture::drawAtPlansSize(const Plan& plan, const EyeFrame& fra
     return technique->draw(sizedFrame);
 }
 
-/// Over what is in `stretched_` with that weight.
-void EyePicture::stretch(const Texture& picture, double weight, const EyeFrame& frame) {
+/// To the frame's size, over what is there with that weight.
+void EyePicture::stretch(const Texture& picture, double weight, Canvas& onto, const EyeFrame& frame) {
     PassScope scope(frame.log, weight < 1.0 ? "fade" : "stretch");
     const int width = frame.view.width, height = frame.view.height;
-    if (!stretched_ || stretched_.width() != width || stretched_.height() != height) {
-        stretched_ = Texture({GL_RGBA16F, width, height}, "stretched picture");
-        stretched_.setLinear(false);
-        const Framebuffer::Attachment color[] = {{&stretched_}};
-        target_ = Framebuffer(color, nullptr, "stretched picture");
+    if (!onto.picture || onto.picture.width() != width || onto.picture.height() != height) {
+        onto.picture = Texture({GL_RGBA16F, width, height}, "stretched picture");
+        onto.picture.setLinear(false);
+        const Framebuffer::Attachment color[] = {{&onto.picture}};
+        onto.target = Framebuffer(color, nullptr, "stretched picture");
     }
     if (!linear_) {
         stretchPass_ = FullscreenPass("common/stretch.frag.glsl");
@@ -39,7 +39,7 @@ void EyePicture::stretch(const Texture& picture, double weight, const EyeFrame& 
         glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     }
-    target_.bind();
+    onto.target.bind();
     picture.bind(0);
     glBindSampler(0, linear_.name());
     stretchPass_.program().set("size", glm::vec2(width, height));
@@ -56,14 +56,14 @@ void EyePicture::stretch(const Texture& picture, double weight, const EyeFrame& 
 const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
     const Texture& picture = drawAtPlansSize(plan, frame);
     if (picture.width() == frame.view.width && picture.height() == frame.view.height) return picture;
-    stretch(picture, 1.0, frame);
-    return stretched_;
+    stretch(picture, 1.0, stretched_, frame);
+    return stretched_.picture;
 }
 
 const Texture& EyePicture::fade(const Plan& from, const Plan& to, double weight, const EyeFrame& frame) {
-    stretch(drawAtPlansSize(from, frame), 1.0, frame);
-    stretch(drawAtPlansSize(to, frame), weight, frame);
-    return stretched_;
+    stretch(drawAtPlansSize(from, frame), 1.0, stretched_, frame);
+    stretch(drawAtPlansSize(to, frame), weight, stretched_, frame);
+    return stretched_.picture;
 }
 
 const Texture& EyePicture::refine(const Plan& plan, int samplesNow, const EyeFrame& frame) {
@@ -77,7 +77,9 @@ const Texture& EyePicture::refine(const Plan& plan, int samplesNow, const EyeFra
 }
 
 std::size_t EyePicture::bytes() const {
-    std::size_t sum = stretched_ ? stretched_.bytes() : 0;
+    std::size_t sum = 0;
+    for (const Canvas* canvas : {&stretched_, &remembered_})
+        if (canvas->picture) sum += canvas->picture.bytes();
     for (const auto& technique : techniques_)
         if (technique) sum += technique->bytes();
     return refining_ ? sum + refining_->bytes() : sum;

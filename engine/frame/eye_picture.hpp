@@ -22,13 +22,25 @@ class EyePicture {
     const Texture& refine(const Plan& plan, int samplesNow, const EyeFrame& frame);
     int refinedSamples() const { return refinedSamples_; }
 
+    /// Keeps what was shown, for soften().
+    void remember(const Texture& shown, const EyeFrame& frame) { stretch(shown, 1.0, remembered_, frame); }
+    /// `weight`, 0..1, of a picture over what is remembered, which from now on is that.
+    const Texture& soften(const Texture& picture, double weight, const EyeFrame& frame) {
+        stretch(picture, weight, remembered_, frame);
+        return remembered_.picture;
+    }
+
     /// Of the technique that drew last. Refining draws nothing that counts.
     const Technique& technique() const { return *drawnBy_; }
     std::size_t bytes() const;
 
   private:
+    struct Canvas {
+        Texture picture;
+        Framebuffer target;
+    };
     const Texture& drawAtPlansSize(const Plan& plan, const EyeFrame& frame);
-    void stretch(const Texture& picture, double weight, const EyeFrame& frame);
+    void stretch(const Texture& picture, double weight, Canvas& onto, const EyeFrame& frame);
 
     std::array<std::unique_ptr<Technique>, std::size(kTechniques)> techniques_;
     std::unique_ptr<Technique> refining_;
@@ -36,8 +48,7 @@ class EyePicture {
     int refinedSamples_ = 0;
     FullscreenPass stretchPass_;
     GlSampler linear_;
-    Texture stretched_;
-    Framebuffer target_;
+    Canvas stretched_, remembered_;
 };
 
 }  // namespace dioptre

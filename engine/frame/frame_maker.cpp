@@ -105,12 +105,6 @@ const Settings& requireDrawable(const Settings& settings) {
     return settings;
 }
 
-Image linearImage(const Texture& picture) {
-    Image image(picture.width(), picture.height());
-    image.pixels = readTexture(picture, GL_RGB, 3);
-    return image;
-}
-
 /// The gaze as visual angles from the axis, degrees, for its speed.
 glm::dvec2 gazeDegrees(const View& view, glm::dvec2 gaze) {
     const Frustum& f = view.frustum;
@@ -236,6 +230,7 @@ const FrameReport& FrameMaker::make(const Input& input) {
     placeEyes(head);
     const Dioptres wanted = focusNow(head, input);
     const bool first = !lastTime_;
+    const double step = input.time - lastTime_.value_or(input.time);
     lastTime_ = input.time;
 
     // Lens or eye: what it can reach
@@ -250,127 +245,16 @@ const FrameReport& FrameMaker::make(const Input& input) {
     if (planner_) {
         if (first) input.alone ? lookAhead() : prepare();
         report_.decision = decide(input);
-        drew = drawEyes(*report_.decision);
+        drew = drawPlanned(*report_.decision, step);
         planner_->look(eyes_.front().drawing.technique(), eyes_.front().view, report_.passes);
     } else {
         drawNamed(input);
     }
-    composed_ = &compositor_.compose(composition(shown(eyes_.front()), shown(eyes_.back())), report_.passes);
+    composed_ = &compositor_.compose(composition(*eyes_.front().shown, *eyes_.back().shown), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;
     if (planner_) planner_->finished(report_.milliseconds, first ? FramePlanner::Drew::somethingElse : drew);
     return report_;
-}
-
-EyeFrame FrameMaker::eyeFrame(const DrawnEye& eye) {
-    const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
-    return {scene_, eye.view, report_.lens.lens, exposure, 0, settings_.render.show, report_.passes};
-}
-
-/// Whether the eye cannot see what is shown: in flight, or shut. A gaze that stays away is a lost tracker.
-bool FrameMaker::unseen(double time) {
-    constexpr double kLongestBlink = 0.4;  // seconds
-    if (settings_.focus.focus.mode != FocusMode::gaze) return false;
-    if (report_.gaze.valid)
-        lostAt_.reset();
-    else if (!lostAt_ || time < *lostAt_)
-        lostAt_ = time;
-    const bool blinks = lostAt_ && time - *lostAt_ < kLongestBlink;
-    return blinks || filter_.state() == FocusState::saccade;
-}
-
-Decision FrameMaker::decide(const Input& input) {
-    std::vector<View> views;
-    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
-    const Decision decision = planner_->decide({scene_, views, report_.lens.lens, input.time, input.budgetMilliseconds,
-                                                brightest_ > 1.0, unseen(input.time), input.alone});
-    for (const Omission& omission : planner_->requirements().omitted) report_.passes.skip(omission.what, omission.why);
-    return decision;
-}
-
-/// Each way of drawing once, so that none keeps a later frame waiting for its programs.
-void FrameMaker::prepare() {
-    PassLog unheard;
-    const Plan cheap{TechniqueChoice::pinhole, 0, {}, {}}, reference{TechniqueChoice::reference, {}, kLeastSamples, {}};
-    for (DrawnEye& eye : eyes_) {
-        const EyeFrame frame{scene_, eye.view, report_.lens.lens, 1.0f, 0, {}, unheard};
-        for (Plan method : planner_->prices().methods()) {
-            if (method.eighths != 8) continue;
-            if (usesSamples(method.technique)) method.samples = kLeastSamples;
-            eye.drawing.draw(method, frame);
-        }
-        eye.drawing.fade(cheap, cheap, 0.5, frame);
-        eye.drawing.refine(reference, kLeastSamples, frame);
-    }
-    glFinish();
-}
-
-/// Where no frame has been that could tell of this one: the blur of a sharp picture, before anything is planned.
-void FrameMaker::lookAhead() {
-    DrawnEye& eye = eyes_.front();
-    eye.drawing.draw({TechniqueChoice::pinhole, 0, {}, {}}, eyeFrame(eye));
-    planner_->look(eye.drawing.technique(), eye.view, report_.passes);
-    glFinish();
-}
-
-FramePlanner::Drew FrameMaker::drawEyes(const Decision& decision) {
-    report_.plan = decision.plan;
-    const auto& refinement = decision.refinement;
-    if (refinement && !decision.fade && base_ && methodOf(*base_) == methodOf(decision.plan)) {
-        for (DrawnEye& eye : eyes_)
-            eye.refined = &eye.drawing.refine(refinement->plan, refinement->samplesNow, eyeFrame(eye));
-        const int samples = eyes_.front().drawing.refinedSamples();
-        if (samples >= refinement->shownFrom) {
-            report_.plan = refinement->plan;
-            report_.plan.samples = samples;
-        } else {
-            report_.plan = *base_;
-            for (DrawnEye& eye : eyes_) eye.refined = nullptr;
-        }
-        return FramePlanner::Drew::refinement;
-    }
-    base_ = decision.fade ? std::nullopt : std::optional(decision.plan);
-    for (DrawnEye& eye : eyes_) {
-        eye.refined = nullptr;
-        eye.picture = decision.fade
-                          ? &eye.drawing.fade(decision.fade->from, decision.plan, decision.fade->weight, eyeFrame(eye))
-                          : &eye.drawing.draw(decision.plan, eyeFrame(eye));
-    }
-    return FramePlanner::Drew::plan;
-}
-
-void FrameMaker::drawNamed(const Input& input) {
-    report_.plan = named_;
-    // As many samples as last time, but for what that took more or less than the budget
-    constexpr double kMostChange = 2.0;
-    const bool refines = input.refines && named_.samples && input.budgetMilliseconds > 0.0;
-    if (refines && refining_) {
-        const double change =
-            std::clamp(input.budgetMilliseconds / report_.milliseconds, 1.0 / kMostChange, kMostChange);
-        samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, *named_.samples);
-    }
-    for (DrawnEye& eye : eyes_) {
-        EyeFrame frame = eyeFrame(eye);
-        frame.samplesNow = refines ? samplesNow_ : 0;
-        eye.picture = &eye.drawing.draw(named_, frame);
-    }
-    refining_ = refines && eyes_.front().drawing.technique().progress() < 1.0;
-}
-
-Image FrameMaker::pictureBy(const Plan& plan) {
-    PassLog unheard;
-    other_.eyes.resize(eyes_.size());
-    std::vector<const Texture*> pictures;
-    for (std::size_t i = 0; i < eyes_.size(); ++i) {
-        const EyeFrame as = eyeFrame(eyes_[i]);
-        pictures.push_back(&other_.eyes[i].draw(plan, {as.scene, as.view, as.lens, as.exposure, 0, {}, unheard}));
-    }
-    const Composition both = composition(*pictures.front(), *pictures.back());
-    return linearImage(other_.compositor.compose(both, unheard));
-}
-
-const Texture& FrameMaker::shown(const DrawnEye& eye) {
-    return eye.refined ? *eye.refined : *eye.picture;
 }
 
 Composition FrameMaker::composition(const Texture& left, const Texture& right) const {
@@ -378,10 +262,16 @@ Composition FrameMaker::composition(const Texture& left, const Texture& right) c
             settings_.render.tonemap};
 }
 
+Image FrameMaker::readPicture(const Texture& picture) {
+    Image image(picture.width(), picture.height());
+    image.pixels = readTexture(picture, GL_RGB, 3);
+    return image;
+}
+
 Image FrameMaker::composed() const {
-    Image image = linearImage(*composed_);
+    Image image = readPicture(*composed_);
     for (const DrawnEye& eye : eyes_) {
-        const std::vector<float> radiance = readTexture(shown(eye), GL_RGB, 3);
+        const std::vector<float> radiance = readTexture(*eye.shown, GL_RGB, 3);
         const auto cut = std::count_if(radiance.begin(), radiance.end(),
                                        [](float v) { return static_cast<double>(v) >= kMostRadiance; });
         if (cut > 0) reportCut(fmt::format("{} values of the picture", cut));

@@ -90,8 +90,9 @@ class FrameMaker {
     struct DrawnEye {
         View view;
         EyePicture drawing;
-        const Texture* picture = nullptr;
-        const Texture* refined = nullptr;
+        const Texture* picture = nullptr;  // by the plan
+        const Texture* refined = nullptr;  // in its place
+        const Texture* shown = nullptr;
     };
 
     /// Warns, once.
@@ -112,9 +113,12 @@ class FrameMaker {
     EyeFrame eyeFrame(const DrawnEye& eye);
     void prepare();
     void lookAhead();
+    FramePlanner::Drew drawPlanned(const Decision& decision, double step);
     FramePlanner::Drew drawEyes(const Decision& decision);
+    FramePlanner::Drew refineEyes(const Decision& decision);
+    bool calm() const;
     void drawNamed(const Input& input);
-    static const Texture& shown(const DrawnEye& eye);
+    static Image readPicture(const Texture& picture);
     Composition composition(const Texture& left, const Texture& right) const;
 
     Settings settings_;
@@ -136,8 +140,12 @@ class FrameMaker {
     double brightest_ = 0.0;        // radiance that a material emits, times exposure
     std::optional<Plan> base_;      // of the eyes' pictures; none: they are faded
     std::optional<double> lostAt_;  // since when the gaze is not valid
-    int samplesNow_ = 1;            // of a named technique that refines, in a frame
-    bool refining_ = false;         // the last frame drew so many
+    bool unseen_ = false;
+    std::optional<Plan> lastShown_;
+    std::optional<View> lastEye_;
+    double melting_ = 0.0;   // seconds, while a change of method melts out of what was shown before
+    int samplesNow_ = 1;     // of a named technique that refines, in a frame
+    bool refining_ = false;  // the last frame drew so many
     Compositor compositor_;
     const Texture* composed_ = nullptr;
     struct {
