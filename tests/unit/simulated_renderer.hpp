@@ -1,4 +1,5 @@
-// A renderer without pictures, for tests of the governor: what its frames take is hidden from who plans them.
+// For tests of the governor: a small table, and a renderer without pictures. What its frames take is hidden from who
+// plans them.
 #pragma once
 
 #include <algorithm>
@@ -6,9 +7,15 @@
 #include <random>
 
 #include "quality/plan.hpp"
+#include "quality/trade_table.hpp"
 #include "quality/view_class.hpp"
 
 namespace dioptre {
+
+inline const TradeTable& table() {
+    static const TradeTable small = readTradeTable(DIOPTRE_TEST_DATA "/trade_small.json");
+    return small;
+}
 
 class SimulatedRenderer {
   public:
