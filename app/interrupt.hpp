@@ -7,8 +7,8 @@ namespace dioptre {
 /// started to ignore stays ignored. A file that grows too large (SIGXFSZ) becomes an error of the write.
 void handleSignals();
 
-/// From here on the first of these signals only sets interrupted(), for an end in good order; one later than 0.1 s after it ends
-/// at once.
+/// From here on the first of these signals only sets interrupted(), for an end in good order. A later one, more than
+/// 0.1 s after it, ends the program at once.
 void watchInterrupts();
 bool interrupted();
 
