@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "commands.hpp"
 #include "frame/frame_maker.hpp"
@@ -67,6 +71,19 @@ std::string lensText(const Settings& settings, const FrameReport& frame) {
     return text + "\n";
 }
 
+std::string passesText(const PassLog& passes) {
+    std::map<std::string_view, int> counts;
+    for (const auto& pass : passes.entries) ++counts[pass.name];
+    std::string text = "passes     ";
+    for (const auto& [name, count] : counts) text += fmt::format("{} x{}  ", name, count);
+    text += "\n";
+    // Both eyes leave out the same.
+    std::set<std::pair<std::string_view, std::string_view>> told;
+    for (const auto& [name, why] : passes.skipped)
+        if (told.insert({name, why}).second) text += fmt::format("left out   {}: {}\n", name, why);
+    return text;
+}
+
 std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
     const View& view = maker.startingView();
     const ViewContents range = maker.scene().contents(view);
@@ -83,11 +100,7 @@ std::string viewText(const FrameMaker& maker, const FrameReport& frame) {
     }
     text += fmt::format("plan       {}, {:.1f} MB of textures for the eyes\n", planText(frame.plan),
                         static_cast<double>(maker.techniqueBytes()) / 1e6);
-    std::map<std::string_view, int> counts;
-    for (const auto& pass : frame.passes.entries) ++counts[pass.name];
-    text += "passes     ";
-    for (const auto& [name, count] : counts) text += fmt::format("{} x{}  ", name, count);
-    return text + "\n";
+    return text + passesText(frame.passes);
 }
 
 }  // namespace

@@ -140,6 +140,31 @@ TEST_F(UsageTest, InspectSaysWhatTheEyeCannotFocus) {
     EXPECT_THAT(young.out, HasSubstr("4 triangles"));
 }
 
+TEST_F(UsageTest, InspectSaysWhatIsLeftOutAndWhy) {
+    using testing::ElementsAre;
+    const auto leftOut = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"inspect", "scene.gltf", "--size",      "40x30",
+                                              "--msaa",  "0",          "--technique", "mipmap"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_THAT(outcome.out, HasSubstr("passes     "));
+        std::vector<std::string> told;
+        for (const std::string& line : linesOf(outcome.out))
+            if (line.starts_with("left out   ")) told.push_back(line.substr(11));
+        return told;
+    };
+    const std::string resolve = "resolve: one sample a pixel";
+    EXPECT_THAT(leftOut({"--focus", "0.4", "--aperture-mm", "0.1"}),
+                ElementsAre(resolve, "blur: nothing is out of focus"));
+    EXPECT_THAT(leftOut({"--focus", "0.4", "--aperture-mm", "60"}),
+                ElementsAre(resolve, "pyramid's coarsest levels: the largest blur does not read them",
+                            "reach: nothing lies so far in front of focus that it blurs",
+                            "foreground layers: nothing lies so far in front of focus that it blurs"))
+        << "each once for both eyes";
+    EXPECT_THAT(leftOut({"--focus", "inf", "--aperture-mm", "60"}), ElementsAre(resolve));
+}
+
 TEST_F(UsageTest, WithOrWithoutEglTheRunEndsInOrder) {
     leaksAllowed = true;
     const Outcome outcome = run({"render", "scene.gltf", "--out", "x.png", "--size", "40x30", "--context", "egl"});
