@@ -169,10 +169,10 @@ TEST_F(RequirementsGLTest, WhatNeitherEyeSeesIsNotDrawn) {
         SceneBuilder b;
         const int material = b.unlit(glm::vec3(0.5f));
         b.camera().quad(testView(), {60.0, 40.0, 120.0, 100.0}, 1.0, material);
-        b.quad({-3.0, 0.0, -2.0}, {0.5, 0.5}, material);    // to the left
-        b.quad({0.0, 3.0, -2.0}, {0.5, 0.5}, material);     // above
-        b.quad({0.0, 0.0, 2.0}, {0.5, 0.5}, material);      // behind
-        b.quad({0.0, 0.0, -0.02}, {0.01, 0.01}, material);  // before the near plane
+        b.quad({-3.0, 0.0, -2.0}, {0.5, 0.5}, material);  // to the left
+        b.quad({0.0, 3.0, -2.0}, {0.5, 0.5}, material);   // above
+        b.quad({0.0, 0.0, 2.0}, {0.5, 0.5}, material);    // behind
+        b.quad({0.0, 0.0, -0.02}, {0.2, 0.2}, material);  // before the near plane
         EXPECT_EQ(drawn(b.scene(), technique), 2 * kQuad * each) << techniqueName(technique);
         b.quad({-0.13, 0.0, -0.3}, {0.03, 0.03}, material);
         EXPECT_EQ(drawn(b.scene(), technique), 3 * kQuad * each) << techniqueName(technique) << ": the left eye's";
