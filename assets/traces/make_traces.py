@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Writes studio.head.csv and studio.gaze.csv beside this file: three seconds in the studio's first camera.
+"""Writes the head and gaze traces beside this file.
 
-The gaze rests on things, not on places of the picture: while the head moves, each place looked at is where its thing
-is seen from there, as an eye keeps it. Run again after the scene has changed, with the places below measured anew
-(dioptre render --gaze X,Y --log F says the dioptres under a gaze).
+studio.*: three seconds in the studio's first camera. The gaze rests on things, not on places of the picture: while the
+head moves, each place looked at is where its thing is seen from there, as an eye keeps it. Run again after the scene
+has changed, with the places below measured anew (dioptre render --gaze X,Y --log F says the dioptres under a gaze).
+
+everyday.py writes the others, ten seconds for any scene.
 """
+import everyday
 import math
 import pathlib
 import random
@@ -81,6 +84,8 @@ def main():
         open_eye = not BLINK[0] <= t < BLINK[1]
         rows.append("%.4f," % t + ("%.4f,%.4f,1" % (x, y) if open_eye else "nan,nan,0"))
     (FOLDER / "studio.gaze.csv").write_text("\n".join(rows) + "\n")
+
+    everyday.write(FOLDER)
 
 
 if __name__ == "__main__":
