@@ -15,6 +15,8 @@ Scene loadScene(const Command& command);
 /// What a single picture may take where nobody says.
 inline constexpr double kPictureMs = 1000.0;
 
+/// "auto"
+std::string_view contextName(const Command& command);
 /// The context that --context names, made current.
 std::unique_ptr<Context> openHeadlessContext(const Command& command);
 
@@ -25,5 +27,9 @@ void inspectLods(const Scene& scene);  // inspect --lods
 void runCompare(const Command& command);
 void runExport(const Command& command);
 void runMeasure(const Command& command);
+void runBudget(const Command& command);
+
+/// The source that the program was built of, as git describes it; "unknown".
+std::string sourceCommit();
 
 }  // namespace dioptre

@@ -26,16 +26,20 @@ Scene loadScene(const Command& command) {
     return scene;
 }
 
-std::unique_ptr<Context> openHeadlessContext(const Command& command) {
+std::string_view contextName(const Command& command) {
     switch (command.settings.system.context) {
         case ContextChoice::automatic:
-            return createHeadlessContext("auto");
+            return "auto";
         case ContextChoice::osmesa:
-            return createHeadlessContext("osmesa");
+            return "osmesa";
         case ContextChoice::egl:
-            return createHeadlessContext("egl");
+            return "egl";
     }
-    return createHeadlessContext("auto");
+    return "auto";
+}
+
+std::unique_ptr<Context> openHeadlessContext(const Command& command) {
+    return createHeadlessContext(contextName(command));
 }
 
 namespace {
@@ -65,6 +69,9 @@ void run(const Command& command) {
             break;
         case Command::Which::measure:
             runMeasure(command);
+            break;
+        case Command::Which::budget:
+            runBudget(command);
             break;
     }
 }

@@ -11,10 +11,6 @@
 #include "scene/builtin.hpp"
 #include "scene/lod.hpp"
 
-#ifndef DIOPTRE_COMMIT
-#define DIOPTRE_COMMIT "unknown"
-#endif
-
 namespace dioptre {
 
 namespace {
@@ -50,10 +46,8 @@ MeasureRequest requestOf(const Command& command, std::size_t scenes) {
     if (const auto cache = cacheFolder(); !cache.empty()) request.cache = cache / "references";
     request.lods = lodFolder();
     request.program = programVersion();
-    request.commit = DIOPTRE_COMMIT;
-    request.context = command.settings.system.context == ContextChoice::osmesa ? "osmesa"
-                      : command.settings.system.context == ContextChoice::egl  ? "egl"
-                                                                               : "auto";
+    request.commit = sourceCommit();
+    request.context = contextName(command);
     request.stopped = interrupted;
     return request;
 }

@@ -27,6 +27,7 @@ namespace {
 constexpr double kMinFps = 0.001, kMaxFps = 1000.0;
 constexpr int kMaxFrames = 1000000;
 constexpr int kMaxReferenceSamples = 32768;  // twice that is the most of --samples
+constexpr int kLeastCompared = 11;           // px; the SSIM's window
 constexpr std::size_t kHelpColumns = 100, kHelpIndent = 30;
 
 /// Settings in the order of the command line, applied once the config file is read.
@@ -154,6 +155,50 @@ void addMeasure(CLI::App& command, Command& result, std::vector<std::string>& si
     command.add_flag("--resume", options.resume, "keep what the folder holds already, measure the rest");
 }
 
+void addBudget(CLI::App& command, Command& result) {
+    BudgetOptions& options = result.budget;
+    command.add_option("--out", result.out, "folder for frames.csv, budget.json and index.html, a page to look at")
+        ->type_name("FOLDER")
+        ->take_last();
+    command
+        .add_option("--frames", options.frames,
+                    "length of the run [1..1000000; default: as long as the traces play, without any 300]")
+        ->type_name("N")
+        ->take_last()
+        ->check(within(1, kMaxFrames, true));
+    command
+        .add_option("--hz", options.hz,
+                    "moments a second, however long a frame takes; without --budget-ms a frame has the time between two "
+                    "[0.001..1000; default 1000 / --budget-ms]")
+        ->type_name("R")
+        ->take_last()
+        ->check(within(kMinFps, kMaxFps, false));
+    command
+        .add_option("--reference-every", options.referenceEvery,
+                    "compare each K-th frame with the reference, untimed; 0: none [0..1000000; default: ten in all]")
+        ->type_name("K")
+        ->take_last()
+        ->check(within(0, kMaxFrames, true));
+    command
+        .add_option("--reference-samples", options.referenceSamples,
+                    "points of the lens in that reference [1..65536; default 256]")
+        ->type_name("N")
+        ->take_last()
+        ->check(within(1, 2 * kMaxReferenceSamples, true));
+    command
+        .add_option("--fail-missed", options.failMissed,
+                    "exit with 1 where more of the frames took longer than the budget [0..100 %]")
+        ->type_name("PERCENT")
+        ->take_last()
+        ->check(within(0, 100, false));
+    command
+        .add_option("--fail-ssim", options.failSsim,
+                    "exit with 1 where the mean SSIM against the reference is lower [0..1]")
+        ->type_name("S")
+        ->take_last()
+        ->check(within(0, 1, false));
+}
+
 void addExamples(CLI::App& app) {
     app.footer(
         "dioptre COMMAND --help tells the options of a command.\n"
@@ -178,6 +223,13 @@ void addExamples(CLI::App& app) {
         "  dioptre measure --out trade\n"
         "  dioptre measure my.glb --out trade --size 640x480,1280x960\n"
         "  dioptre measure --quick --out quick");
+    app.get_subcommand("budget")->footer(
+        "Without --head-trace and --gaze-trace a seated viewer looks around, assets/traces/seated.*.\n"
+        "Examples:\n"
+        "  dioptre budget my.glb --budget-ms 100 --out run\n"
+        "  dioptre budget my.glb --hz 90 --head-trace head.csv --gaze-trace gaze.csv --out run\n"
+        "  dioptre budget my.glb --budget-ms 100 --technique mipmap --out held\n"
+        "  dioptre budget my.glb --budget-ms 100 --fail-missed 5 --fail-ssim 0.95 --out check");
     app.get_subcommand("export")->footer("Example: dioptre export toys --out toys.glb");
 }
 
@@ -228,6 +280,22 @@ void checkMeasure(Command& command, const std::vector<std::string>& sizes) {
             command.measure.sizes.end())
             command.measure.sizes.push_back(one.view.size);
     }
+}
+
+void checkBudget(Command& command) {
+    std::optional<double>& milliseconds = command.settings.render.budgetMs;
+    BudgetOptions& options = command.budget;
+    if (command.out.empty()) throw InputError("budget: --out FOLDER is missing");
+    if (!milliseconds && !options.hz) throw InputError("budget: --budget-ms MS or --hz R is missing");
+    if (!milliseconds) milliseconds = 1000.0 / *options.hz;
+    if (!options.hz) options.hz = 1000.0 / *milliseconds;
+    const bool compares = options.referenceEvery != 0;
+    if (options.failSsim && !compares)
+        throw InputError("budget: --fail-ssim needs frames that are compared, --reference-every 0 compares none");
+    const PictureSize& size = command.settings.view.size;
+    if (compares && std::min(size.width, size.height) < kLeastCompared)
+        throw InputError(fmt::format("--size: {}x{} is too small to be compared, at least {}x{}; or --reference-every 0",
+                                     size.width, size.height, kLeastCompared, kLeastCompared));
 }
 
 std::string oneLine(std::string text) {
@@ -301,7 +369,13 @@ Command parseCommandLine(int argc, const char* const* argv) {
     std::vector<std::string> sizes;
     addMeasure(*measure, result, sizes);
     addSettings(*measure, given, {"camera", "pose", "exposure", "context"});
-    const auto commands = {render, view, inspect, compare, measure, exporter};
+    CLI::App* budget = app.add_subcommand(
+        "budget", "play head and gaze traces against a budget of milliseconds a frame, and tell what it gave");
+    addScene(*budget, result);
+    addBudget(*budget, result);
+    addConfig(*budget, result);
+    addSettings(*budget, given);
+    const auto commands = {render, view, inspect, compare, measure, budget, exporter};
     for (CLI::App* command : commands) command->allow_extras();
     addExamples(app);
 
@@ -319,7 +393,7 @@ Command parseCommandLine(int argc, const char* const* argv) {
     for (const CLI::App* command : commands) rejectExtras(*command);
     rejectExtras(app);
     if (app.get_subcommands().empty())
-        throw InputError("no command given: view, render, inspect, measure, compare or export, see dioptre --help");
+        throw InputError("no command given: view, render, inspect, measure, budget, compare or export, see dioptre --help");
 
     if (!result.config.empty()) loadSettings(result.config, result.settings);
     for (const auto& [name, text] : given) {
@@ -334,6 +408,7 @@ Command parseCommandLine(int argc, const char* const* argv) {
                    : inspect->parsed() ? Command::Which::inspect
                    : compare->parsed() ? Command::Which::compare
                    : measure->parsed() ? Command::Which::measure
+                   : budget->parsed()  ? Command::Which::budget
                                        : Command::Which::exportScene;
     if (result.which == Command::Which::render && !result.printConfig) {
         if (result.out.empty()) throw InputError("render: --out FILE is missing");
@@ -344,6 +419,7 @@ Command parseCommandLine(int argc, const char* const* argv) {
     if (result.which == Command::Which::compare && !result.out.empty()) requireImageName(result.out);
     if (result.which == Command::Which::exportScene) checkExport(result);
     if (result.which == Command::Which::measure) checkMeasure(result, sizes);
+    if (result.which == Command::Which::budget && !result.printConfig) checkBudget(result);
     return result;
 }
 

@@ -18,17 +18,28 @@ struct MeasureOptions {
     bool quick = false, resume = false;
 };
 
+/// Of `budget` alone; of a frame's time, settings.render.budgetMs.
+struct BudgetOptions {
+    std::optional<int> frames;          // none: as long as the traces play
+    std::optional<double> hz;           // moments a second; none: 1000 / budgetMs
+    std::optional<int> referenceEvery;  // 0: never; none: ten times in all
+    int referenceSamples = 256;
+    std::optional<double> failMissed;  // percent of the frames, at most
+    std::optional<double> failSsim;    // mean, at least
+};
+
 struct Command {
-    enum class Which { nothingToDo, view, render, inspect, compare, exportScene, measure };
+    enum class Which { nothingToDo, view, render, inspect, compare, exportScene, measure, budget };
 
     Which which = Which::nothingToDo;  // --help or --version was printed, or --print-config asked for alone
     std::string scene;                 // a file or builtin:NAME; empty: the studio. export: NAME or builtin:NAME
     std::filesystem::path out;         // render: picture, or folder of a sequence; export: GLB file;
-                                       // measure: folder
+                                       // measure, budget: folder
     int frames = 1;                    // render: > 1 draws a sequence into the folder `out`
     double fps = 30.0;                 // of the sequence, frames per second
     std::string compareA, compareB;    // compare: two picture files; their error map goes to `out`
     MeasureOptions measure;
+    BudgetOptions budget;
     bool lods = false;             // inspect: tell of the levels of detail alone
     std::filesystem::path log;     // render, view: CSV of what was shown; empty: none
     std::filesystem::path config;  // already read into settings

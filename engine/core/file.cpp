@@ -108,8 +108,12 @@ void makeFolder(const fs::path& path, std::string_view option) {
     std::error_code error;
     fs::create_directories(path, error);
     std::error_code unseen;
-    if (fs::is_directory(path, unseen)) return;
     const std::string where = std::string(option) + ": " + path.string();
+    if (fs::is_directory(path, unseen)) {
+        // Now rather than after a long run
+        if (::access(path.c_str(), W_OK | X_OK) != 0) throw RunError(where + " cannot be written to: " + reason(errno));
+        return;
+    }
     if (fs::exists(path, unseen) || error == std::errc::not_a_directory)
         throw InputError(where + " is no folder, and none can be made there: a file is in the way");
     throw RunError(where + " cannot be made a folder: " + error.message());

@@ -8,8 +8,8 @@
 
 namespace dioptre {
 
-/// Makes a folder, and those above it; one that is there is fine. InputError where something else has its name.
-/// RunError: no permission, any other failure. `option` begins the message: "--out".
+/// Makes a folder to write into, and those above it; one that is there is fine. InputError where something else has its
+/// name. RunError: no permission, any other failure. `option` begins the message: "--out".
 void makeFolder(const std::filesystem::path& path, std::string_view option);
 
 /// Writes to a temporary file in the same folder, then renames it over `path`, so that nobody ever sees half a file and

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "frame/machine_json.hpp"
 #include "frame/measure_lens.hpp"
 #include "frame/measure_rows.hpp"
 
@@ -124,26 +125,16 @@ MeasuredRow rowOf(const Json& j) {
 
 std::string measurementsJson(const Measurements& all) {
     const MeasuredWith& w = all.with;
-    Json j = {{"schema", kSchema},
-              {"program", w.program},
-              {"commit", w.commit},
-              {"renderer", w.renderer},
-              {"version", w.version},
-              {"context", w.context},
-              {"cpu", w.cpu},
-              {"cores", w.cores},
-              {"memory_bytes", w.memoryBytes},
-              {"system", w.system},
-              {"date", w.date},
-              {"load", w.load},
-              {"settings",
+    Json j = {{"schema", kSchema}};
+    j.update(machineJson(w));
+    j.update({{"settings",
                {{"samples_per_half", w.samplesPerHalf},
                 {"row_ms", w.rowMs},
                 {"exposure_ev", w.exposureEv},
                 {"sizes", w.sizes},
                 {"blurs", w.blurs}}},
               {"views", Json::array()},
-              {"rows", Json::array()}};
+              {"rows", Json::array()}});
     for (const MeasuredView& v : all.views) j["views"].push_back(jsonOf(v));
     for (const MeasuredRow& r : all.rows) j["rows"].push_back(jsonOf(r));
     return j.dump(1) + "\n";

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/file.hpp"
-#include "core/resources.hpp"
+#include "frame/report_page.hpp"
 
 namespace dioptre {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kLargestTemplate = 1u << 20;
-constexpr std::string_view kPlace = "\"@MEASUREMENTS@\"";
 
 /// Each technique's row that is closest to the reference.
 std::vector<const MeasuredRow*> bestRows(const Measurements& all, const MeasuredView& view) {
@@ -66,14 +61,10 @@ Json picturesWithin(const Measurements& all, const PictureFolder& pictures, std:
 }  // namespace
 
 std::string measurePage(const Measurements& all, const PictureFolder& pictures, std::size_t mostBytes) {
-    const auto file = resource("assets/measure/report.html");
-    std::string page = readFile(file, kLargestTemplate);
-    const auto place = page.find(kPlace);
-    if (place == std::string::npos)
-        throw RunError(file.string() + ": " + std::string(kPlace) + " is missing, the installation is incomplete");
+    const ReportPage page("measure");
     Json data = Json::parse(measurementsJson(all));
     Json thumbs = Json::object();
-    std::size_t bytes = page.size() + data.dump().size();
+    std::size_t bytes = page.bytes() + data.dump().size();
     for (const MeasuredRow& row : all.rows) {
         const std::string key = row.view + "." + row.key(), thumb = pictures.dataUri(key, ".thumb");
         if (!thumb.empty()) thumbs[key] = thumb;
@@ -81,11 +72,7 @@ std::string measurePage(const Measurements& all, const PictureFolder& pictures, 
     }
     data["thumbs"] = std::move(thumbs);
     data["pictures"] = picturesWithin(all, pictures, mostBytes > bytes ? mostBytes - bytes : 0);
-    // A script ends at "</", wherever it stands; "<\/" is the same text to JSON.
-    std::string json = data.dump(-1, ' ', true);
-    for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3) json.replace(at, 2, "<\\/");
-    page.replace(place, kPlace.size(), json);
-    return page;
+    return page.with(data.dump(-1, ' ', true));
 }
 
 }  // namespace dioptre

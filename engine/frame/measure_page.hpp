@@ -8,7 +8,7 @@
 
 namespace dioptre {
 
-/// assets/measure/report.html with the measurements in it. Every row has its thumbnail; picture and error map at their
+/// assets/pages/measure.html with the measurements in it. Every row has its thumbnail; picture and error map at their
 /// size has each technique's best of a view, by SSIM, while the page stays under
 /// `mostBytes` (paper-like blurs first).
 std::string measurePage(const Measurements& all, const PictureFolder& pictures,

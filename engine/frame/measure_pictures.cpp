@@ -52,6 +52,10 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
+std::string jpegDataUri(std::string_view jpeg) {
+    return "data:image/jpeg;base64," + base64(jpeg);
+}
+
 PictureFolder::PictureFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
 void PictureFolder::writePicture(const std::string& key, const Image& picture) const {
@@ -71,7 +75,7 @@ std::string PictureFolder::dataUri(const std::string& key, std::string_view kind
     const auto file = folder_ / (key + std::string(kind) + ".jpg");
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return {};
-    return "data:image/jpeg;base64," + base64(readFile(file, kLargestPicture));
+    return jpegDataUri(readFile(file, kLargestPicture));
 }
 
 }  // namespace dioptre

@@ -14,6 +14,9 @@ Image smaller(const Image& image, int width);
 
 std::string base64(std::string_view bytes);
 
+/// "data:image/jpeg;base64,..." of a JPEG file's bytes.
+std::string jpegDataUri(std::string_view jpeg);
+
 /// Files of one view or row in a folder: KEY.jpg, KEY.flip.jpg, KEY.thumb.jpg.
 class PictureFolder {
   public:

@@ -97,7 +97,7 @@ TEST_F(MeasureTest, WritesWholeTablesAndAPage) {
 
     const std::string page = read("trade/index.html");
     EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
-    EXPECT_THAT(page, testing::Not(HasSubstr("@MEASUREMENTS@")));
+    EXPECT_THAT(page, testing::Not(HasSubstr("@DATA@")));
     EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
 }
 

@@ -9,7 +9,8 @@ using UsageTest = ProgramTest;
 
 TEST_F(UsageTest, HelpFitsTheTerminalAndGoesToStdout) {
     for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"-h"}, {"render", "--help"}, {"view", "--help"}, {"inspect", "--help"}, {"compare", "-h"}}) {
+             {"--help"}, {"-h"}, {"render", "--help"}, {"view", "--help"}, {"inspect", "--help"}, {"compare", "-h"},
+             {"budget", "--help"}}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 0);
         EXPECT_EQ(outcome.err, "");

@@ -165,6 +165,8 @@ TEST_F(FileTest, WithoutPermissionTheRunFails) {
         return;
     }
     fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_EQ(errorOf<RunError>([&] { makeFolder(folder, "--out"); }),
+              "--out: " + folder.string() + " cannot be written to: Permission denied");
     EXPECT_EQ(errorOf<RunError>([&] { writeFileAtomically(folder / "f", "x"); }),
               (folder / "f").string() + ": cannot be written: Permission denied");
     fs::permissions(folder, fs::perms::owner_all);

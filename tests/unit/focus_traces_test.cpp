@@ -42,6 +42,27 @@ std::string errorOf(Read read, const std::string& text) {
     return "accepted";
 }
 
+TEST(TracesTest, ThoseForAnySceneBeginWhereTheViewDoes) {
+    const auto traces = std::filesystem::path(DIOPTRE_CONFIG).parent_path() / "assets/traces";
+    for (const std::string name : {"seated", "walk", "reading", "sweep", "dropouts"}) {
+        const auto head = readHeadTrace(traces / (name + ".head.csv"));
+        const auto gaze = readGazeTrace(traces / (name + ".gaze.csv"));
+        EXPECT_EQ(head.front().pose.position, glm::dvec3(0.0)) << name;
+        EXPECT_EQ(head.front().pose.orientation.w, 1.0) << name;
+        EXPECT_EQ(head.front().time, 0.0) << name;
+        EXPECT_EQ(gaze.front().time, 0.0) << name;
+        EXPECT_EQ(head.back().time, gaze.back().time) << name;
+        std::size_t lost = 0, outside = 0;
+        for (const GazeSample& sample : gaze) {
+            if (!sample.valid) ++lost;
+            const glm::dvec2 p = sample.position;
+            if (p.x < 0.0 || p.x > 1.0 || p.y < 0.0 || p.y > 1.0) ++outside;
+        }
+        EXPECT_EQ(lost > gaze.size() / 3, name == "dropouts") << name << ": " << lost << " of " << gaze.size();
+        EXPECT_EQ(outside, 0u) << name;
+    }
+}
+
 TEST(TracesTest, ReadsGaze) {
     const TraceFile file("t_s,x,y,valid\n0,0.25,0.75,1\n0.5,nan,nan,0\n0.5, 1.5 ,-0.5,1\n");
     const auto trace = readGazeTrace(file.path());
