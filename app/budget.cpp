@@ -50,7 +50,8 @@ BudgetRun runOf(const Command& command, const Settings& settings) {
     BudgetRun run;
     run.size = settings.view.size;
     run.display = textOf(settings, "display");
-    run.technique = settings.render.technique ? planText(planOf(settings.render)) : "auto";
+    const std::optional<Plan> held = planOf(settings.render);
+    run.technique = held ? planText(*held) : "auto";
     run.headTrace = settings.focus.headTrace;
     run.gazeTrace = settings.focus.gazeTrace;
     run.budgetMs = *settings.render.budgetMs;

@@ -289,6 +289,8 @@ void checkBudget(Command& command) {
     if (!milliseconds && !options.hz) throw InputError("budget: --budget-ms MS or --hz R is missing");
     if (!milliseconds) milliseconds = 1000.0 / *options.hz;
     if (!options.hz) options.hz = 1000.0 / *milliseconds;
+    if (command.settings.render.show.stage != ShowChoice::none)
+        throw InputError("budget: --show draws a stage in place of the picture, a run is of pictures");
     const bool compares = options.referenceEvery != 0;
     if (options.failSsim && !compares)
         throw InputError("budget: --fail-ssim needs frames that are compared, --reference-every 0 compares none");

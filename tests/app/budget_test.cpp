@@ -157,6 +157,7 @@ TEST_F(BudgetTest, RefusesWhatItCannotRun) {
              {"--fail-ssim", "2", "0..1"},
              {"--size", "40x8", "11x11"},
              {"--gaze-trace", "absent.csv", "absent.csv"},
+             {"--show", "coc", "--show"},
              {"--out", "scene.bin", "--out"},
          })
         expectRefused(budget({wrong[0], wrong[1]}), {wrong[0] == "--gaze-trace" ? wrong[1] : wrong[0], wrong[2]});
