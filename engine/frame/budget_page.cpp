@@ -26,9 +26,9 @@ template <class Key>
 class Numbering {
   public:
     std::size_t operator()(const Key& key) {
-        const auto found = std::find(keys.begin(), keys.end(), key);
-        if (found == keys.end()) keys.push_back(key);
-        return static_cast<std::size_t>(found - keys.begin());
+        const auto index = static_cast<std::size_t>(std::find(keys.begin(), keys.end(), key) - keys.begin());
+        if (index == keys.size()) keys.push_back(key);
+        return index;
     }
     std::vector<Key> keys;
 };

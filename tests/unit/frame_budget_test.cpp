@@ -23,7 +23,7 @@ BudgetFrame frame(const Plan& plan, double milliseconds, PlanChange change = Pla
     BudgetFrame f;
     f.plan = plan;
     f.milliseconds = milliseconds;
-    f.governed = BudgetFrame::Governed{change, "it fits, and is \"better\"", milliseconds * 1.1, 0.9};
+    f.governed = BudgetFrame::Governed{change, "it fits, and is better", milliseconds * 1.1, 0.9};
     return f;
 }
 
