@@ -66,8 +66,8 @@ BudgetRun runOf(const Command& command, const Settings& settings) {
 }
 
 std::string resultText(const BudgetRun& run, const BudgetSummary& s) {
-    std::string text = fmt::format("{} frames, {:.3g} % longer than {:g} ms; median {:.3g} ms, 99 % {:.3g} ms", s.frames,
-                                   100.0 * s.missedShare, run.budgetMs, s.p50, s.p99);
+    std::string text = fmt::format("{} frames, {:.3g} % longer than {:g} ms; median {:.3g} ms, 99 % {:.3g} ms",
+                                   s.frames, 100.0 * s.missedShare, run.budgetMs, s.p50, s.p99);
     if (s.meanSsim) text += fmt::format("; SSIM {:.4f}, at worst {:.4f}", *s.meanSsim, *s.worstSsim);
     return text;
 }
@@ -94,8 +94,8 @@ void runBudget(const Command& command) {
     const auto write = [&] {
         if (run.frames.empty()) return;
         writeBudget(run, command.out);
-        logInfo(fmt::format("{}; to look at: {}", resultText(run, summaryOf(run)),
-                            (command.out / "index.html").string()));
+        logInfo(
+            fmt::format("{}; to look at: {}", resultText(run, summaryOf(run)), (command.out / "index.html").string()));
     };
     try {
         playBudget(maker, settings.view.time, interrupted, run);

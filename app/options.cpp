@@ -167,9 +167,10 @@ void addBudget(CLI::App& command, Command& result) {
         ->take_last()
         ->check(within(1, kMaxFrames, true));
     command
-        .add_option("--hz", options.hz,
-                    "moments a second, however long a frame takes; without --budget-ms a frame has the time between two "
-                    "[0.001..1000; default 1000 / --budget-ms]")
+        .add_option(
+            "--hz", options.hz,
+            "moments a second, however long a frame takes; without --budget-ms a frame has the time between two "
+            "[0.001..1000; default 1000 / --budget-ms]")
         ->type_name("R")
         ->take_last()
         ->check(within(kMinFps, kMaxFps, false));
@@ -296,8 +297,9 @@ void checkBudget(Command& command) {
         throw InputError("budget: --fail-ssim needs frames that are compared, --reference-every 0 compares none");
     const PictureSize& size = command.settings.view.size;
     if (compares && std::min(size.width, size.height) < kLeastCompared)
-        throw InputError(fmt::format("--size: {}x{} is too small to be compared, at least {}x{}; or --reference-every 0",
-                                     size.width, size.height, kLeastCompared, kLeastCompared));
+        throw InputError(
+            fmt::format("--size: {}x{} is too small to be compared, at least {}x{}; or --reference-every 0", size.width,
+                        size.height, kLeastCompared, kLeastCompared));
 }
 
 std::string oneLine(std::string text) {
@@ -395,7 +397,8 @@ Command parseCommandLine(int argc, const char* const* argv) {
     for (const CLI::App* command : commands) rejectExtras(*command);
     rejectExtras(app);
     if (app.get_subcommands().empty())
-        throw InputError("no command given: view, render, inspect, measure, budget, compare or export, see dioptre --help");
+        throw InputError(
+            "no command given: view, render, inspect, measure, budget, compare or export, see dioptre --help");
 
     if (!result.config.empty()) loadSettings(result.config, result.settings);
     for (const auto& [name, text] : given) {

@@ -40,8 +40,8 @@ std::string budgetPage(const BudgetRun& run) {
     Numbering<Plan> plans;
     Numbering<std::string_view> reasons;
     Json rows = Json::array(), pictures = Json::object();
-    const auto shown = static_cast<std::size_t>(std::count_if(
-        run.frames.begin(), run.frames.end(), [](const BudgetFrame& f) { return !f.picture.empty(); }));
+    const auto shown = static_cast<std::size_t>(
+        std::count_if(run.frames.begin(), run.frames.end(), [](const BudgetFrame& f) { return !f.picture.empty(); }));
     const std::size_t everyPicture = std::max<std::size_t>(1, (shown + kMostPictures - 1) / kMostPictures);
     std::size_t seen = 0;
     for (const BudgetFrame& f : run.frames) {

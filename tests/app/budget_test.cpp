@@ -16,9 +16,9 @@ class BudgetTest : public ProgramTest {
   protected:
     /// A budget that no frame of this size misses, and few samples.
     Outcome budget(std::vector<std::string> more = {}) const {
-        std::vector<std::string> arguments = {"budget", "scene.gltf", "--out",       "run", "--size",
-                                              "40x30",  "--frames",   "6",           "--budget-ms", "10000",
-                                              "--reference-samples",  "16"};
+        std::vector<std::string> arguments = {
+            "budget", "scene.gltf",          "--out", "run", "--size", "40x30", "--frames", "6", "--budget-ms",
+            "10000",  "--reference-samples", "16"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     }
@@ -107,8 +107,9 @@ TEST_F(BudgetTest, TheRateIsTheBudgetWhereNoneIsGivenAndTheOtherWayAround) {
 }
 
 TEST_F(BudgetTest, ARunIsAsLongAsItsTraces) {
-    const std::vector<std::string> arguments = {"budget", "scene.gltf", "--out", "run", "--size", "40x30", "--hz",
-                                                "10", "--technique", "pinhole", "--reference-every", "0"};
+    const std::vector<std::string> arguments = {
+        "budget",  "scene.gltf",        "--out", "run", "--size", "40x30", "--hz", "10", "--technique",
+        "pinhole", "--reference-every", "0"};
     const auto framesWith = [&](std::vector<std::string> more) {
         more.insert(more.begin(), arguments.begin(), arguments.end());
         const Outcome outcome = run(more);

@@ -8,9 +8,13 @@ using testing::HasSubstr;
 using UsageTest = ProgramTest;
 
 TEST_F(UsageTest, HelpFitsTheTerminalAndGoesToStdout) {
-    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"-h"}, {"render", "--help"}, {"view", "--help"}, {"inspect", "--help"}, {"compare", "-h"},
-             {"budget", "--help"}}) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                           {"-h"},
+                                                                                           {"render", "--help"},
+                                                                                           {"view", "--help"},
+                                                                                           {"inspect", "--help"},
+                                                                                           {"compare", "-h"},
+                                                                                           {"budget", "--help"}}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 0);
         EXPECT_EQ(outcome.err, "");

@@ -95,9 +95,14 @@ TEST(BudgetLimitsTest, WhatWasNotMeasuredIsNotKept) {
 
 TEST(BudgetJsonTest, HasAllKeys) {
     const Json j = Json::parse(budgetJson(some()));
-    for (const char* key : {"frames", "budget_ms", "p50_ms", "p90_ms", "p99_ms", "max_ms", "missed", "missed_share",
-                            "technique_changes", "mean_ssim", "worst_ssim", "plans", "program", "commit", "renderer",
-                            "scene", "width", "height", "hz", "head_trace", "gaze_trace", "compared", "changes"})
+    for (const char* key : {"frames",    "budget_ms",    "p50_ms",
+                            "p90_ms",    "p99_ms",       "max_ms",
+                            "missed",    "missed_share", "technique_changes",
+                            "mean_ssim", "worst_ssim",   "plans",
+                            "program",   "commit",       "renderer",
+                            "scene",     "width",        "height",
+                            "hz",        "head_trace",   "gaze_trace",
+                            "compared",  "changes"})
         EXPECT_TRUE(j.contains(key)) << key;
     EXPECT_EQ(j["frames"], 5);
     EXPECT_EQ(j["frames_wanted"], 6);
@@ -138,7 +143,8 @@ TEST(BudgetCsvTest, HasACellForEachColumn) {
     ASSERT_EQ(cells.size(), 6u);
     for (const std::size_t count : cells) EXPECT_EQ(count, cells[0]);
     EXPECT_THAT(csv, HasSubstr("\n0,0.000000,\"mipmap, msaa 4\",mipmap,,10.000,20,0,,,,,,"));
-    EXPECT_THAT(csv, HasSubstr("\n2,0.040000,\"accumulate, 8 samples, 4 sub-samples each\",accumulate,8,18.000,20,0,up,"));
+    EXPECT_THAT(csv,
+                HasSubstr("\n2,0.040000,\"accumulate, 8 samples, 4 sub-samples each\",accumulate,8,18.000,20,0,up,"));
     EXPECT_THAT(csv, HasSubstr("mipmap,,40.000,20,1,down,"));
     EXPECT_THAT(csv, HasSubstr(",0.25000,0.75000,1,1.500000\n"));
 }
