@@ -185,7 +185,7 @@ TEST_F(RequirementsGLTest, SharpViewsAreAPinholesPicture) {
     Shot shot;
     const auto widest = [&](double diameter) {
         shot.lens = lensFor(shot.view, 0.5 * diameter, 1.0, 2.0);  // as blurred as infinity
-        const VergenceRange range = scene.vergenceRange(shot.view);
+        const ViewContents range = scene.contents(shot.view);
         ViewFacts facts;
         facts.boxes = cocRange(shot.lens, focalLengthPixels(shot.view).x, Dioptres(range.nearest), Dioptres(0.0));
         return require(facts);
