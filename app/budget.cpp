@@ -49,6 +49,7 @@ BudgetRun runOf(const Command& command, const Settings& settings) {
     const BudgetOptions& options = command.budget;
     BudgetRun run;
     run.size = settings.view.size;
+    run.eye = textOf(settings, "eye");
     run.display = textOf(settings, "display");
     const std::optional<Plan> held = planOf(settings.render);
     run.technique = held ? planText(*held) : "auto";

@@ -99,6 +99,7 @@ std::string budgetJson(const BudgetRun& run) {
     j.update({{"scene", run.scene},
               {"width", run.size.width},
               {"height", run.size.height},
+              {"eye", run.eye},
               {"display", run.display},
               {"technique", run.technique},
               {"head_trace", run.headTrace},

@@ -2,7 +2,7 @@
 //
 // budget.json, schema 1. All keys are always there; null is what was not measured.
 //   schema, program, commit, renderer, version, context, cpu, cores, memory_bytes, system, date, load: as in trade.json
-//   scene, width, height (of ONE eye), display, technique ("auto", or the plan that was held), head_trace, gaze_trace
+//   scene, width, height (of ONE eye), eye, display, technique ("auto", or the plan that was held), head_trace, gaze_trace
 //   hz            of the moments: frame i is i / hz seconds after the first, however long it took
 //   frames, frames_wanted: fewer where the run was stopped
 //   budget_ms     of a frame, all eyes
@@ -53,7 +53,7 @@ struct BudgetRun {
     MeasuredWith with;  // program and machine
     std::string scene;
     PictureSize size;  // of one eye
-    std::string display, technique, headTrace, gazeTrace;
+    std::string eye, display, technique, headTrace, gazeTrace;
     double budgetMs = 0.0, hz = 0.0;  // > 0
     int framesWanted = 0;
     int referenceEvery = 0, referenceSamples = 0;  // every 0: no frame was compared
