@@ -2,7 +2,8 @@
 //
 // budget.json, schema 1. All keys are always there; null is what was not measured.
 //   schema, program, commit, renderer, version, context, cpu, cores, memory_bytes, system, date, load: as in trade.json
-//   scene, width, height (of ONE eye), eye, display, technique ("auto", or the plan that was held), head_trace, gaze_trace
+//   scene, width, height (of ONE eye), eye, display, head_trace, gaze_trace
+//   technique     "auto", or the plan that was held
 //   hz            of the moments: frame i is i / hz seconds after the first, however long it took
 //   frames, frames_wanted: fewer where the run was stopped
 //   budget_ms     of a frame, all eyes

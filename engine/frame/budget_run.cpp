@@ -28,7 +28,7 @@ BudgetFrame noteOf(const FrameReport& report) {
     return frame;
 }
 
-/// The first frame alone pays for compiling shaders. Drawn at another moment: a view that stands still would be refined.
+/// The first frame alone pays for compiling shaders. At another moment: a view that stands still would be refined.
 void warm(FrameMaker& maker, FrameMaker::Input input, double later) {
     input.time += later;
     maker.make(input);

@@ -10,8 +10,8 @@
 namespace dioptre {
 
 /// Fills run.frames, up to run.framesWanted of them at run.budgetMs and run.hz, with a progress line; fewer where
-/// `stopped` (asked before each frame) said so. Frame i is that of the moment start + i / run.hz seconds. A frame that is
-/// compared is read back and drawn again as the reference between two frames, untimed. Throws RunError; the frames
+/// `stopped` (asked before each frame) said so. Frame i is that of the moment start + i / run.hz seconds. A frame that
+/// is compared is read back and drawn again as the reference between two frames, untimed. Throws RunError; the frames
 /// before stay.
 void playBudget(FrameMaker& maker, double start, const std::function<bool()>& stopped, BudgetRun& run);
 
