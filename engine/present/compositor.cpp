@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace dioptre {
 
@@ -22,33 +24,45 @@ Placement fitted(PictureSize picture, PictureSize window) {
     return place;
 }
 
+namespace {
+
+std::string defineOf(DisplayChoice display) {
+    switch (display) {
+        case DisplayChoice::mono:
+            return "MONO";
+        case DisplayChoice::sideBySide:
+            return "SIDE_BY_SIDE";
+        case DisplayChoice::sideBySideHalf:
+            return "SIDE_BY_SIDE_HALF";
+        case DisplayChoice::topBottom:
+            return "TOP_BOTTOM";
+        case DisplayChoice::anaglyph:
+            return "ANAGLYPH";
+    }
+    return "MONO";
+}
+
+}  // namespace
+
+const FullscreenPass& Compositor::passFor(const Composition& composition, bool encode) {
+    FullscreenPass& pass = passes_[{composition.display, composition.tonemap, encode}];
+    if (pass.program()) return pass;
+    std::vector<std::string> defines = {defineOf(composition.display)};
+    if (composition.tonemap == ToneMapChoice::neutral) defines.emplace_back("NEUTRAL");
+    if (encode) defines.emplace_back("ENCODE");
+    pass = FullscreenPass("present/compose.frag.glsl", defines);
+    return pass;
+}
+
 void Compositor::draw(const Composition& composition, const Placement& place, bool encode) {
-    if (!pass_.program()) pass_ = FullscreenPass("present/compose.frag.glsl");
     const bool swapped = composition.swapEyes && composition.display != DisplayChoice::mono;
     (swapped ? composition.right : composition.left).bind(0);
     (swapped ? composition.left : composition.right).bind(1);
-    const int mode = [&] {
-        switch (composition.display) {
-            case DisplayChoice::mono:
-                return 0;
-            case DisplayChoice::sideBySide:
-                return 1;
-            case DisplayChoice::sideBySideHalf:
-                return 2;
-            case DisplayChoice::topBottom:
-                return 3;
-            case DisplayChoice::anaglyph:
-                return 4;
-        }
-        return 0;
-    }();
-    const Program& program = pass_.program();
-    program.set("mode", mode);
+    const FullscreenPass& pass = passFor(composition, encode);
+    const Program& program = pass.program();
     program.set("origin", glm::vec2(place.x, place.y));
     program.set("size", glm::vec2(place.width, place.height));
-    program.set("neutral", composition.tonemap == ToneMapChoice::neutral ? 1 : 0);
-    program.set("encode", encode ? 1 : 0);
-    pass_.draw();
+    pass.draw();
 }
 
 const Texture& Compositor::compose(const Composition& composition, PassLog& log) {

@@ -1,6 +1,9 @@
 // From the eyes' linear pictures to what a display shows.
 #pragma once
 
+#include <map>
+#include <tuple>
+
 #include "core/settings.hpp"
 #include "gl/objects.hpp"
 #include "gl/pass.hpp"
@@ -33,9 +36,10 @@ class Compositor {
     void present(PictureSize window, PassLog& log);
 
   private:
+    const FullscreenPass& passFor(const Composition& composition, bool encode);
     void draw(const Composition& composition, const Placement& place, bool encode);
 
-    FullscreenPass pass_;
+    std::map<std::tuple<DisplayChoice, ToneMapChoice, bool>, FullscreenPass> passes_;  // display, tone map, encoded
     Texture output_;
     Framebuffer target_;
 };

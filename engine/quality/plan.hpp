@@ -22,7 +22,7 @@ struct Plan {
     std::optional<int> msaa;        // samples per pixel, 0 or 4
     std::optional<int> samples;     // points of the lens, >= 1
     std::optional<int> subsamples;  // more points of the lens for each of them, on average; 0..16
-    int eighths = 8;                // 4..8: width and height of what is drawn, in eighths of the picture's
+    int eighths = 8;                // 2..8: width and height of what is drawn, in eighths of the picture's
 
     bool operator==(const Plan&) const = default;
 
@@ -43,7 +43,7 @@ bool usesSamples(TechniqueChoice choice);
 /// Whether it draws levels of detail.
 bool usesLevels(TechniqueChoice choice);
 
-inline constexpr int kLeastEighths = 4;
+inline constexpr int kLeastEighths = 2;
 /// Whether a plan may be drawn smaller: only without msaa, whose samples are worth more than as many pixels.
 bool maySize(const Plan& plan);
 

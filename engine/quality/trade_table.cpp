@@ -135,9 +135,11 @@ double doublings(double a, double b, double least) {
 /// 1 - SSIM of a picture drawn smaller and enlarged again: medians of two path-traced pinhole pictures without blur;
 /// through lenses it falls about as one divided by the mean CoC.
 double errorOfScale(int eighths, double meanCocPx) {
-    constexpr double kSharp[] = {0.08, 0.055, 0.04, 0.03, 0.0};  // 4/8 to 8/8
+    constexpr double kSharp[] = {0.19, 0.12, 0.08, 0.055,
+                                 0.04, 0.03, 0.0};  // 2/8 to 8/8; the first two as the others go on
     constexpr double kHalvedByPx = 5.0;
-    return kSharp[std::clamp(eighths, 4, 8) - 4] / (1.0 + std::max(meanCocPx, 0.0) / kHalvedByPx);
+    return kSharp[std::clamp(eighths, kLeastEighths, 8) - kLeastEighths] /
+           (1.0 + std::max(meanCocPx, 0.0) / kHalvedByPx);
 }
 
 /// How little two views are alike, >= 0; 0: the same. In doublings of blur and of triangles per pixel.

@@ -1,18 +1,22 @@
-// Two eyes' linear radiance to one picture; the only place where the window's sRGB is made.
+// Two eyes' linear radiance to one picture; the only place where the window's sRGB is made. One program for each way: on a
+// software renderer, which runs both sides of an `if`, one for all took ten times as long.
+//   MONO, SIDE_BY_SIDE, SIDE_BY_SIDE_HALF, TOP_BOTTOM, ANAGLYPH: one of them
+//   NEUTRAL  Khronos PBR Neutral tone mapping
+//   ENCODE   to sRGB, for a window
 layout(binding = 0) uniform sampler2D leftEye;
 layout(binding = 1) uniform sampler2D rightEye;
-uniform int mode;      // Layout in present/compositor.hpp
 uniform vec2 origin;   // of the picture in the target, pixels
 uniform vec2 size;     // of the picture in the target, pixels
-uniform int neutral;   // Khronos PBR Neutral tone mapping
-uniform int encode;    // to sRGB, for a window
 
 layout(location = 0) out vec4 color;
 
 // At a place in the eye's pixels (of a whole picture that is stretched: filtered).
 vec3 eye(sampler2D picture, vec2 at) {
-    if (encode != 0) return textureLod(picture, at / vec2(textureSize(picture, 0)), 0.0).rgb;
+#ifdef ENCODE
+    return textureLod(picture, at / vec2(textureSize(picture, 0)), 0.0).rgb;
+#else
     return texelFetch(picture, ivec2(at), 0).rgb;
+#endif
 }
 
 // Squeezed to half width: two source pixels to one, so that nothing is skipped.
@@ -52,19 +56,32 @@ vec3 sRgb(vec3 c) {
 }
 
 void main() {
-    // Both eyes' halves begin at a whole pixel, so that equal pictures stay equal to the bit; the left eye is above.
     vec2 at = gl_FragCoord.xy - origin;
+#ifdef MONO
+    vec3 c = eye(leftEye, at * (vec2(textureSize(leftEye, 0)) / size));
+#elif defined(ANAGLYPH)
+    vec3 c = anaglyph(eye(leftEye, at), eye(rightEye, at));
+#else
+    // Both eyes' halves begin at a whole pixel, so that equal pictures stay equal to the bit; the left eye is above.
     vec2 halves = ceil(0.5 * size);
-    bool second = mode == 3 ? at.y < halves.y : at.x >= halves.x;
-    vec2 inHalf = at;
-    if (mode == 3 && !second) inHalf.y -= halves.y;
-    if (mode != 3 && second) inHalf.x -= halves.x;
-    vec3 c;
-    if (mode == 0) c = eye(leftEye, at * (vec2(textureSize(leftEye, 0)) / size));
-    else if (mode == 2) c = second ? squeezed(rightEye, inHalf) : squeezed(leftEye, inHalf);
-    else if (mode == 4) c = anaglyph(eye(leftEye, at), eye(rightEye, at));
-    else c = second ? eye(rightEye, inHalf) : eye(leftEye, inHalf);
-    if (neutral != 0) c = toneMapNeutral(c);
-    if (encode != 0) c = sRgb(c);
+#ifdef TOP_BOTTOM
+    bool second = at.y < halves.y;
+    if (!second) at.y -= halves.y;
+#else
+    bool second = at.x >= halves.x;
+    if (second) at.x -= halves.x;
+#endif
+#ifdef SIDE_BY_SIDE_HALF
+    vec3 c = second ? squeezed(rightEye, at) : squeezed(leftEye, at);
+#else
+    vec3 c = second ? eye(rightEye, at) : eye(leftEye, at);
+#endif
+#endif
+#ifdef NEUTRAL
+    c = toneMapNeutral(c);
+#endif
+#ifdef ENCODE
+    c = sRgb(c);
+#endif
     color = vec4(c, 1.0);
 }

@@ -28,8 +28,8 @@ namespace dioptre {
 namespace {
 
 constexpr int kSettling = 10;  // frames, not counted: after the step from nothing
-constexpr int kFrames = 90, kCompared = 9;
-constexpr int kReferenceSamples = 256;
+constexpr int kFrames = 60, kCompared = 10;
+constexpr int kReferenceSamples = 128;
 
 struct Stage {
     Scene scene;
@@ -69,7 +69,11 @@ Run play(const Stage& stage, const std::optional<Plan>& plan, double budget, std
         FrameMaker::Input input;
         input.time = i * budget * 1e-3;
         input.budgetMilliseconds = budget;
-        if (i == 0) maker.make(input);
+        if (i == 0) {
+            FrameMaker::Input warming = input;
+            warming.time += budget * 1e-3;
+            maker.make(warming);
+        }
         const FrameReport& report = maker.make(input);
         const std::string method = planText(methodOf(report.plan));
         if (run.methods.empty() || run.methods.back() != method) run.methods.push_back(method);

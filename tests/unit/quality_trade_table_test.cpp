@@ -144,7 +144,7 @@ TEST(ExpectedErrorsTest, ChangeGraduallyFromViewToView) {
 
 TEST(ExpectedErrorsTest, SmallerPicturesAreWorse) {
     const ExpectedErrors errors(small(), small().views[1]);
-    for (int eighths = 4; eighths < 8; ++eighths)
+    for (int eighths = kLeastEighths; eighths < 8; ++eighths)
         EXPECT_GT(errors.of({TechniqueChoice::mipmap, 0, {}, {}, eighths}),
                   errors.of({TechniqueChoice::mipmap, 0, {}, {}, eighths + 1}));
     EXPECT_EQ(errors.of({TechniqueChoice::accumulate, {}, 8, 3}), 1.0) << "never measured";
