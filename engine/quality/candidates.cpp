@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dioptre {
 
@@ -58,11 +59,15 @@ std::optional<PricedPlan> Candidates::safest(double limit) const {
     return best;
 }
 
-PricedPlan Candidates::cheapest() const {
+PricedPlan Candidates::cheapest(double hope) const {
     std::optional<PricedPlan> cheapest;
+    double leastHoped = std::numeric_limits<double>::infinity();
     for (const Plan& method : methods()) {
         const PricedPlan least = priced(withSamples(method, kLeastSamples));
-        if (!cheapest || least.milliseconds < cheapest->milliseconds) cheapest = least;
+        const double hoped = least.milliseconds * std::pow(unsure(method), -hope);
+        if (cheapest && hoped >= leastHoped) continue;
+        cheapest = least;
+        leastHoped = hoped;
     }
     return *cheapest;
 }

@@ -38,8 +38,8 @@ class Candidates {
     std::optional<PricedPlan> best(double limit) const;
     /// The same of what fits even if it is as dear as its price is unsure.
     std::optional<PricedPlan> safest(double limit) const;
-    /// What costs the least, whatever that is.
-    PricedPlan cheapest() const;
+    /// What costs the least, whatever that is; each `hope` standard deviations cheaper than its price.
+    PricedPlan cheapest(double hope = 0.0) const;
     /// The cheapest at full size that gives the view what it requires: a blur where there is one.
     Plan adequate() const;
 

@@ -55,7 +55,8 @@ void Governor::advanceClock(const Situation& s) {
     if (passed > 0.0 && passed <= kLongest) {
         step_ = passed;
     } else {
-        const double frame = s.lastMs.value_or(s.budgetMs);
+        // A display waits for the next refresh.
+        const double frame = std::max(s.lastMs.value_or(0.0), s.budgetMs);
         step_ = std::isfinite(frame) ? std::clamp(frame * 1e-3, 0.0, kLongest) : 0.0;
     }
     clock_ += step_;
@@ -116,7 +117,9 @@ Governor::Move Governor::goDown(const Candidates& candidates, const Situation& s
     if (candidates.priced(*current_).milliseconds > kept) {
         const auto fewer = candidates.within(methodOf(*current_), kTarget * s.budgetMs);
         if (!fewer) {
-            const PricedPlan to = candidates.safest(kTarget * s.budgetMs).value_or(candidates.cheapest());
+            // Where nothing is sure to fit: what may turn out to be the cheapest. Drawn, it is no longer unsure.
+            const auto safest = candidates.safest(kTarget * s.budgetMs);
+            const PricedPlan to = safest ? *safest : candidates.cheapest(1.0);
             if (methodOf(to.plan) == methodOf(*current_)) {
                 current_ = to.plan;
                 return {};

@@ -44,6 +44,8 @@ bool usesSamples(TechniqueChoice choice);
 bool usesLevels(TechniqueChoice choice);
 
 inline constexpr int kLeastEighths = 2;
+/// Fewer pixels in steps of a half or so: each change of size is seen.
+inline constexpr int kSmallerEighths[] = {kLeastEighths, 3, 4, 6};
 /// Whether a plan may be drawn smaller: only without msaa, whose samples are worth more than as many pixels.
 bool maySize(const Plan& plan);
 

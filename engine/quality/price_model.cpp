@@ -39,7 +39,7 @@ PriceModel::PriceModel(const TradeTable& table) : coefficients_(fitPrices(table)
     for (std::size_t i = 0; i < std::size(kTechniques); ++i) add(kTechniquePrior, kOtherDrift);
     // Methods of a smaller size stand behind those of the table, whose corrections they begin with.
     const std::size_t full = methods_.size();
-    for (int eighths = kLeastEighths; eighths < 8; ++eighths)
+    for (const int eighths : kSmallerEighths)
         for (std::size_t i = 0; i < full; ++i)
             if (maySize(methods_[i])) {
                 methods_.push_back(methods_[i]);

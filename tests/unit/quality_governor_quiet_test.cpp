@@ -291,7 +291,7 @@ TEST_F(QuietTest, AClockThatStandsOrRunsBackwardsDelaysNoFadeAndNoChange) {
     situation.budgetMs = 20.0;
     int ups = 0, fades = 0, sinceUp = 1000;
     for (int i = 0; i < 400; ++i) {
-        situation.now = i % 2 == 0 ? 7.0 : 7.0 - i;
+        situation.now = 7.0 - i / 2;
         const Decision d = frame();
         sinceUp = d.change == PlanChange::up ? 0 : sinceUp + 1;
         ups += d.change == PlanChange::up;
