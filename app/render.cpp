@@ -43,9 +43,12 @@ void runRender(const Command& command) {
         input.time = command.settings.view.time;
         input.budgetMilliseconds = command.settings.render.budgetMs.value_or(kPictureMs);
         input.alone = true;
-        // Levels of detail take long to build: only for a plan that draws them
-        if (!named && usesLevels(maker.make(input).plan.technique)) addLevels();
         shown.push_back(maker.make(input));
+        // Levels of detail take long to build: only for a plan that draws them
+        if (!named && usesLevels(shown.back().plan.technique)) {
+            addLevels();
+            shown.back() = maker.make(input);
+        }
         warnIfLimited(shown.back().lens);
         writeImage(command.out, maker.composed());
     } else {

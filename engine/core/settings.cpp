@@ -191,7 +191,8 @@ std::vector<Setting> makeTable() {
             {.group = "render",
              .name = "technique",
              .help = "way of drawing defocus; pinhole draws none, all is sharp; mipmap is fast, accumulate accurate, "
-                     "reference slow and exact; auto: whatever is most accurate within the budget",
+                     "reference slow and exact; auto: whatever is most accurate within the budget, "
+                     "with dials of its own",
              .choices = {"auto", "pinhole", "mipmap", "accumulate", "reference"}}),
         row<&S::render, &Render::budgetMs>(
             {.group = "render",

@@ -38,6 +38,8 @@ constexpr double kVelocityWindow = 0.03;
 constexpr double kClockRestart = 1.0;
 // Nearer than this to the target focus has arrived, for the state that is shown.
 constexpr double kArrived = 0.01;  // dioptres
+// Nearer than this it is there: no eye and no picture can tell, and a view would never stand still.
+constexpr double kThere = 1e-4;  // dioptres
 
 bool isUsable(const FocusSample& sample) {
     return sample.valid && sample.underGaze && std::isfinite(sample.underGaze->value) &&
@@ -175,6 +177,7 @@ void FocusFilter::evolve(double time) {
         const bool farToNear = target_ > focus_;
         focus_ = focusStep(focus_, target_, Seconds(moment - now_),
                            farToNear ? dynamics_.tauFarToNear : dynamics_.tauNearToFar);
+        if (std::abs((target_ - focus_).value) < kThere) focus_ = target_;
         now_ = moment;
     };
     const double driftDue = lastUsable_ + dynamics_.driftAfter.value;

@@ -23,7 +23,9 @@ class EyePicture {
     int refinedSamples() const { return refinedSamples_; }
 
     /// Keeps what was shown, for soften().
-    void remember(const Texture& shown, const EyeFrame& frame) { stretch(shown, 1.0, remembered_, frame); }
+    void remember(const Texture& shown, const EyeFrame& frame) {
+        if (&shown != &remembered_.picture) stretch(shown, 1.0, remembered_, frame);
+    }
     /// `weight`, 0..1, of a picture over what is remembered, which from now on is that.
     const Texture& soften(const Texture& picture, double weight, const EyeFrame& frame) {
         stretch(picture, weight, remembered_, frame);

@@ -13,9 +13,11 @@ EyeFrame FrameMaker::eyeFrame(const DrawnEye& eye) {
 }
 
 /// Whether the eye cannot see what is shown: in flight, or shut. A gaze that stays away is a lost tracker.
-bool FrameMaker::unseen(double time) {
+bool FrameMaker::unseen(const Input& input) {
     constexpr double kLongestBlink = 0.4;  // seconds
-    if (settings_.focus.focus.mode != FocusMode::gaze) return false;
+    const double time = input.time;
+    // A pointer that leaves the picture does not blink.
+    if (settings_.focus.focus.mode != FocusMode::gaze || input.alone || input.gaze) return false;
     if (report_.gaze.valid)
         lostAt_.reset();
     else if (!lostAt_ || time < *lostAt_)
@@ -25,7 +27,7 @@ bool FrameMaker::unseen(double time) {
 }
 
 Decision FrameMaker::decide(const Input& input) {
-    unseen_ = unseen(input.time);
+    unseen_ = unseen(input);
     std::vector<View> views;
     for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
     const Decision decision = planner_->decide({scene_, views, report_.lens.lens, input.time, input.budgetMilliseconds,
@@ -38,8 +40,13 @@ Decision FrameMaker::decide(const Input& input) {
 void FrameMaker::prepare() {
     PassLog unheard;
     const Plan cheap{TechniqueChoice::pinhole, 0, {}, {}}, reference{TechniqueChoice::reference, {}, kLeastSamples, {}};
+    // Programs do not hang on the size.
+    constexpr int kWidth = 64, kHeight = 48;
     for (DrawnEye& eye : eyes_) {
-        const EyeFrame frame{scene_, eye.view, report_.lens.lens, 1.0f, 0, {}, unheard};
+        View view = eye.view;
+        view.width = std::min(view.width, kWidth);
+        view.height = std::min(view.height, kHeight);
+        const EyeFrame frame{scene_, view, report_.lens.lens, 1.0f, 0, {}, unheard};
         for (Plan method : planner_->prices().methods()) {
             if (method.eighths != 8) continue;
             if (usesSamples(method.technique)) method.samples = kLeastSamples;
@@ -60,6 +67,7 @@ void FrameMaker::lookAhead() {
 }
 
 FramePlanner::Drew FrameMaker::refineEyes(const Decision& decision) {
+    const int before = eyes_.front().drawing.refinedSamples();
     for (DrawnEye& eye : eyes_)
         eye.refined = &eye.drawing.refine(decision.refinement->plan, decision.refinement->samplesNow, eyeFrame(eye));
     const int samples = eyes_.front().drawing.refinedSamples();
@@ -70,7 +78,10 @@ FramePlanner::Drew FrameMaker::refineEyes(const Decision& decision) {
         report_.plan = *base_;
         for (DrawnEye& eye : eyes_) eye.refined = nullptr;
     }
-    return FramePlanner::Drew::refinement;
+    // It may have begun anew, or be finished: then the time is not that of as many samples.
+    const bool asMany =
+        samples - before == decision.refinement->samplesNow || samples == decision.refinement->samplesNow;
+    return asMany ? FramePlanner::Drew::refinement : FramePlanner::Drew::refinementInPart;
 }
 
 FramePlanner::Drew FrameMaker::drawEyes(const Decision& decision) {
@@ -85,21 +96,24 @@ FramePlanner::Drew FrameMaker::drawEyes(const Decision& decision) {
     return FramePlanner::Drew::plan;
 }
 
-/// Whether what was shown before lies where this frame has it, to about two pixels: then it may be seen through it.
+/// Whether what was shown before lies where this frame has it, to about a pixel: then it may be seen through it.
 bool FrameMaker::calm() const {
-    constexpr double kMostPixels = 2.0;
+    constexpr double kMostPixels = 1.0, kNear = 2.0;  // a frame; dioptres, of most of what is near
     const View& now = eyes_.front().view;
-    if (!lastEye_ || lastEye_->width != now.width || lastEye_->height != now.height) return false;
+    if (!lastEye_ || lastVersion_ != scene_.version()) return false;
     const double turn =
         2.0 * std::acos(std::min(1.0, std::abs(glm::dot(lastEye_->pose.orientation, now.pose.orientation))));
     const double step = glm::length(lastEye_->pose.position - now.pose.position);
-    return focalLengthPixels(now).x * (turn + step * report_.lens.lens.focus.value) <= kMostPixels;
+    return focalLengthPixels(now).x * (turn + step * std::max(kNear, report_.lens.lens.focus.value)) <= kMostPixels;
 }
 
 /// A change of method that is not cross-faded melts out of what was shown before, as long as it lies still enough: that
 /// costs a pass, not a second drawing.
-FramePlanner::Drew FrameMaker::drawPlanned(const Decision& decision, double step) {
+FramePlanner::Drew FrameMaker::drawPlanned(Decision decision, double step) {
     constexpr double kSeconds = 0.1;
+    // One technique has one set of buffers: two of its sizes in turn would make them anew for each frame of a fade.
+    const bool within = decision.fade && decision.fade->from.technique == decision.plan.technique;
+    if (within) decision.fade.reset();
     const bool softens = calm() && !unseen_ && step > 0.0 && step < kSeconds;
     if (!softens) melting_ = 0.0;
     const std::optional<Plan> before = lastShown_;
@@ -123,7 +137,9 @@ FramePlanner::Drew FrameMaker::drawPlanned(const Decision& decision, double step
     }
     melting_ = std::max(0.0, melting_ - step);
     lastShown_ = report_.plan;
+    if (within) drew = FramePlanner::Drew::somethingElse;
     lastEye_ = eyes_.front().view;
+    lastVersion_ = scene_.version();
     return drew;
 }
 

@@ -97,7 +97,8 @@ const Settings& requireDrawable(const Settings& settings) {
         throw InputError(fmt::format("--size: {}x{} makes a picture of {}x{}, this OpenGL draws at most {}x{}",
                                      view.size.width, view.size.height, whole.width, whole.height, width, height));
     const auto plan = planOf(settings.render);
-    const int msaa = plan ? plan->msaa.value_or(0) : settings.render.msaa;
+    constexpr int kMostMsaa = 4;  // that the governor may choose
+    const int msaa = plan ? plan->msaa.value_or(0) : kMostMsaa;
     if (!possible(GL_RGBA16F, msaa, view.size) || !possible(GL_RGBA32F, 0, whole))
         throw InputError(
             fmt::format("--size: {}x{} with --msaa {} takes more memory in one texture than this OpenGL gives",
@@ -240,11 +241,13 @@ const FrameReport& FrameMaker::make(const Input& input) {
 
     // What the view requires, and the plan; drawn once per eye, the same for both
     report_.budgetMs = input.budgetMilliseconds;
-    report_.decision.reset();
+    const bool again = input.alone && report_.decision;
+    if (!again) report_.decision.reset();
     auto drew = FramePlanner::Drew::somethingElse;
     if (planner_) {
         if (first) input.alone ? lookAhead() : prepare();
-        report_.decision = decide(input);
+        // A picture drawn again, with levels of detail: by the plan that asked for them
+        if (!again) report_.decision = decide(input);
         drew = drawPlanned(*report_.decision, step);
         planner_->look(eyes_.front().drawing.technique(), eyes_.front().view, report_.passes);
     } else {

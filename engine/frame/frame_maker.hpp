@@ -109,11 +109,11 @@ class FrameMaker {
     };
     std::optional<GazeDepth> gazeDepth(const View& centre, bool mayLag);
     Decision decide(const Input& input);
-    bool unseen(double time);
+    bool unseen(const Input& input);
     EyeFrame eyeFrame(const DrawnEye& eye);
     void prepare();
     void lookAhead();
-    FramePlanner::Drew drawPlanned(const Decision& decision, double step);
+    FramePlanner::Drew drawPlanned(Decision decision, double step);
     FramePlanner::Drew drawEyes(const Decision& decision);
     FramePlanner::Drew refineEyes(const Decision& decision);
     bool calm() const;
@@ -143,9 +143,10 @@ class FrameMaker {
     bool unseen_ = false;
     std::optional<Plan> lastShown_;
     std::optional<View> lastEye_;
-    double melting_ = 0.0;   // seconds, while a change of method melts out of what was shown before
-    int samplesNow_ = 1;     // of a named technique that refines, in a frame
-    bool refining_ = false;  // the last frame drew so many
+    std::uint64_t lastVersion_ = 0;  // of the scene
+    double melting_ = 0.0;           // seconds, while a change of method melts out of what was shown before
+    int samplesNow_ = 1;             // of a named technique that refines, in a frame
+    bool refining_ = false;          // the last frame drew so many
     Compositor compositor_;
     const Texture* composed_ = nullptr;
     struct {

@@ -44,7 +44,8 @@ ViewFacts FramePlanner::factsOf(const Moment& moment, const ViewContents& conten
     if (!histogram.empty()) facts.pixels = pixelStatistics(histogram);
     facts.highlights = moment.highlights;
     facts.transparency = contents.blended;
-    facts.moving = moved(moment) || moment.alone;
+    const bool moving = moved(moment);
+    facts.moving = moving || moment.alone;
     facts.blades = moment.lens.blades;
     return facts;
 }
@@ -75,8 +76,9 @@ Decision FramePlanner::decide(const Moment& moment) {
 }
 
 void FramePlanner::finished(double milliseconds, Drew drew) {
-    lastMs_ = drew == Drew::somethingElse ? std::nullopt : std::optional(milliseconds);
-    lastRefined_ = drew == Drew::refinement;
+    const bool tells = drew == Drew::plan || drew == Drew::refinement;
+    lastMs_ = tells ? std::optional(milliseconds) : std::nullopt;
+    lastRefined_ = drew == Drew::refinement || drew == Drew::refinementInPart;
 }
 
 }  // namespace dioptre

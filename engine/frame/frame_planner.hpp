@@ -31,7 +31,7 @@ class FramePlanner {
     };
     Decision decide(const Moment& moment);
 
-    enum class Drew { plan, refinement, somethingElse };
+    enum class Drew { plan, refinement, refinementInPart, somethingElse };
     /// Once the frame is finished: what it took, and what it was.
     void finished(double milliseconds, Drew drew);
     /// For statistics of what comes next: what drew the first eye's picture.

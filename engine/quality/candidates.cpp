@@ -32,16 +32,16 @@ PricedPlan Candidates::priced(const Plan& plan) const {
     return {plan, prices_.price(plan, view_), errors_.of(plan)};
 }
 
-std::optional<PricedPlan> Candidates::within(const Plan& method, double limit, double margin) const {
-    const Plan least = withSamples(method, kLeastSamples);
+std::optional<PricedPlan> Candidates::within(const Plan& method, double limit, double margin, int leastSamples) const {
+    const Plan least = withSamples(method, leastSamples);
     const double leastPrice = margin * prices_.price(least, view_);
     if (!(leastPrice <= limit)) return std::nullopt;
     if (!usesSamples(method.technique)) return priced(least);
     // Prices are affine in the number of samples.
-    const double each = margin * prices_.price(withSamples(method, kLeastSamples + 1), view_) - leastPrice;
+    const double each = margin * prices_.price(withSamples(method, leastSamples + 1), view_) - leastPrice;
     constexpr double most = kMostSamples;
     const double more = each > 0.0 ? std::floor((limit - leastPrice) / each) : most;
-    return priced(withSamples(method, std::clamp(kLeastSamples + more, double{kLeastSamples}, most)));
+    return priced(withSamples(method, std::clamp(leastSamples + more, double(leastSamples), most)));
 }
 
 std::optional<PricedPlan> Candidates::best(double limit) const {

@@ -33,7 +33,8 @@ class Candidates {
     PricedPlan priced(const Plan& plan) const;
     /// The method with the most samples of which `margin` times the price is at most `limit` ms; none where the least
     /// are too dear.
-    std::optional<PricedPlan> within(const Plan& method, double limit, double margin = 1.0) const;
+    std::optional<PricedPlan> within(const Plan& method, double limit, double margin = 1.0,
+                                     int leastSamples = kLeastSamples) const;
     /// Of what fits, the one with the least error; none where nothing does.
     std::optional<PricedPlan> best(double limit) const;
     /// The same of what fits even if it is as dear as its price is unsure.

@@ -117,9 +117,11 @@ Governor::Move Governor::goDown(const Candidates& candidates, const Situation& s
     if (candidates.priced(*current_).milliseconds > kept) {
         const auto fewer = candidates.within(methodOf(*current_), kTarget * s.budgetMs);
         if (!fewer) {
-            // Where nothing is sure to fit: what may turn out to be the cheapest. Drawn, it is no longer unsure.
-            const auto safest = candidates.safest(kTarget * s.budgetMs);
-            const PricedPlan to = safest ? *safest : candidates.cheapest(1.0);
+            // After a miss what is sure to fit, else what is foreseen to. Where nothing does: what may turn out to be the
+            // cheapest; drawn, it is no longer unsure.
+            const double target = kTarget * s.budgetMs;
+            const auto fits = missed ? candidates.safest(target) : candidates.best(target);
+            const PricedPlan to = fits ? *fits : candidates.cheapest(1.0);
             if (methodOf(to.plan) == methodOf(*current_)) {
                 current_ = to.plan;
                 return {};
@@ -253,7 +255,7 @@ Decision Governor::decision(const Candidates& candidates, const Situation& s, Mo
     refined_.reset();
     if (s.requirements.mayRefine && !s.unseen) {
         const Plan reference{TechniqueChoice::reference, {}, {}, {}};
-        if (const auto now = candidates.within(reference, kTarget * s.budgetMs)) {
+        if (const auto now = candidates.within(reference, kTarget * s.budgetMs, 1.0, 1)) {
             refined_ = now->plan;
             d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, *now->plan.samples,
                             candidates.samplesToReach(*current_)};
@@ -290,7 +292,8 @@ Decision Governor::decide(const Situation& situation) {
     if (move.change != PlanChange::none || s.unseen) {
         candidate_ = {};
         fade_.running = false;
-    } else if (!missed) {
+    } else if (!missed && !s.lastRefined) {
+        // What is drawn of a still view gets better by refining.
         move = goUp(candidates, s);
     }
     if (fade_.running && (missed || !fadeFits(candidates, s, *current_))) fade_.running = false;
