@@ -175,8 +175,9 @@ void addBudget(CLI::App& command, Command& result) {
         ->take_last()
         ->check(within(kMinFps, kMaxFps, false));
     command
-        .add_option("--reference-every", options.referenceEvery,
-                    "compare each K-th frame with the reference, untimed; 0: none [0..1000000; default: ten in all]")
+        .add_option(
+            "--reference-every", options.referenceEvery,
+            "compare each K-th frame with the reference, untimed; 0: none [0..1000000; default: about ten in all]")
         ->type_name("K")
         ->take_last()
         ->check(within(0, kMaxFrames, true));

@@ -22,7 +22,7 @@ struct MeasureOptions {
 struct BudgetOptions {
     std::optional<int> frames;          // none: as long as the traces play
     std::optional<double> hz;           // moments a second; none: 1000 / budgetMs
-    std::optional<int> referenceEvery;  // 0: never; none: ten times in all
+    std::optional<int> referenceEvery;  // 0: never; none: about ten times in all
     int referenceSamples = 256;
     std::optional<double> failMissed;  // percent of the frames, at most
     std::optional<double> failSsim;    // mean, at least

@@ -34,8 +34,8 @@ void EyePicture::stretch(const Texture& picture, double weight, Canvas& onto, co
         GLuint name = 0;
         glCreateSamplers(1, &name);
         linear_ = GlSampler(name);
-        for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-            glSamplerParameteri(name, wrap, GL_CLAMP_TO_EDGE);
+        glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glSamplerParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     }

@@ -120,6 +120,25 @@ TEST_F(AutoGLTest, AStillViewBecomesTheReference) {
     EXPECT_LT(maker.make(input).plan.samples.value_or(0), samples);
 }
 
+TEST_F(AutoGLTest, AFinishedRefinementTeachesNothing) {
+    Settings s = someSettings();
+    s.view.size = {12, 9};
+    FrameMaker maker(someScene(), s);
+    FrameMaker::Input input;
+    input.budgetMilliseconds = 30.0;
+    std::optional<Plan> planned;
+    int finished = 0;
+    for (int i = 0; i < 2000 && finished < 20; ++i) {
+        input.time = i / 60.0;
+        const FrameReport& report = maker.make(input);
+        if (i == 30) planned = report.decision->plan;
+        if (i <= 30 || report.plan.samples != kMostSamples) continue;
+        ++finished;
+        EXPECT_EQ(report.decision->plan, *planned) << "frames that draw nothing are not cheap plans";
+    }
+    EXPECT_EQ(finished, 20);
+}
+
 TEST_F(AutoGLTest, SmallerPicturesAreEnlargedAndFadesAreMeans) {
     const GpuScene scene(someScene());
     Shot shot;
