@@ -70,14 +70,21 @@ TEST_F(AutoGLTest, EyesAtOnePlaceSeeTheSameWhateverIsPlanned) {
     s.view.ipdMm = 0.0;
     s.view.size = {96, 72};
     FrameMaker maker(someScene(), s);
+    // In what a pinhole takes here: no time is short or long by itself.
+    Settings sharp = s;
+    sharp.render.technique = TechniqueChoice::pinhole;
+    FrameMaker pinhole(someScene(), sharp);
+    double unit = 1e9;
+    for (int i = 0; i < 5; ++i) unit = std::min(unit, pinhole.make({0.1 * i, {}, {}}).milliseconds);
     FrameMaker::Input input;
     std::vector<std::string> plans;
     bool faded = false, refined = false;
-    for (int i = 0; i < 160; ++i) {
-        // Budgets that move it up and down; the head rests at last.
+    for (int i = 0; i < 800 && !(plans.size() >= 3 && faded && refined); ++i) {
+        // Budgets that move it up and down; the head rests now and then.
+        const int phase = i % 160;
         input.time = i / 60.0;
-        input.budgetMilliseconds = i < 40 ? 60.0 : i < 60 ? 1.0 : 120.0;
-        if (i < 140) input.head = Pose{{0.0005 * i, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+        input.budgetMilliseconds = unit * (phase < 40 ? 25.0 : phase < 60 ? 0.5 : 50.0);
+        if (phase < 140) input.head = Pose{{0.0005 * phase, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
         const FrameReport& report = maker.make(input);
         ASSERT_TRUE(report.decision.has_value());
         faded = faded || report.decision->fade.has_value();
@@ -134,7 +141,9 @@ TEST_F(AutoGLTest, AFinishedRefinementTeachesNothing) {
         if (i == 30) planned = report.decision->plan;
         if (i <= 30 || report.plan.samples != kMostSamples) continue;
         ++finished;
-        EXPECT_EQ(report.decision->plan, *planned) << "frames that draw nothing are not cheap plans";
+        // Frames that draw nothing are not cheap ones of what was planned.
+        EXPECT_NE(report.decision->change, PlanChange::up);
+        EXPECT_LE(report.decision->plan.samples.value_or(0), planned->samples.value_or(kMostSamples));
     }
     EXPECT_EQ(finished, 20);
 }
