@@ -79,9 +79,9 @@ FramePlanner::Drew FrameMaker::refineEyes(const Decision& decision) {
         for (DrawnEye& eye : eyes_) eye.refined = nullptr;
     }
     // It may have begun anew, or be finished: then the time is not that of as many samples.
-    const bool asMany =
-        samples - before == decision.refinement->samplesNow || samples == decision.refinement->samplesNow;
-    return asMany ? FramePlanner::Drew::refinement : FramePlanner::Drew::refinementInPart;
+    const int drawn = samples > before ? samples - before : samples < before ? samples : 0;
+    return drawn == decision.refinement->samplesNow ? FramePlanner::Drew::refinement
+                                                    : FramePlanner::Drew::refinementInPart;
 }
 
 FramePlanner::Drew FrameMaker::drawEyes(const Decision& decision) {

@@ -133,17 +133,17 @@ TEST_F(AutoGLTest, AFinishedRefinementTeachesNothing) {
     FrameMaker maker(someScene(), s);
     FrameMaker::Input input;
     input.budgetMilliseconds = 30.0;
-    std::optional<Plan> planned;
     int finished = 0;
+    double price = 0.0;
     for (int i = 0; i < 2000 && finished < 20; ++i) {
         input.time = i / 60.0;
         const FrameReport& report = maker.make(input);
-        if (i == 30) planned = report.decision->plan;
-        if (i <= 30 || report.plan.samples != kMostSamples) continue;
-        ++finished;
-        // Frames that draw nothing are not cheap ones of what was planned.
-        EXPECT_NE(report.decision->change, PlanChange::up);
-        EXPECT_LE(report.decision->plan.samples.value_or(0), planned->samples.value_or(kMostSamples));
+        if (report.plan.samples != kMostSamples || report.plan.technique != TechniqueChoice::reference) continue;
+        // The first one drew the last samples; what the others took is of no plan.
+        if (++finished == 2) price = report.decision->foreseenMs;
+        if (finished < 2) continue;
+        EXPECT_EQ(report.decision->change, PlanChange::none);
+        EXPECT_DOUBLE_EQ(report.decision->foreseenMs, price) << finished;
     }
     EXPECT_EQ(finished, 20);
 }
