@@ -1,6 +1,7 @@
 // The subcommands, one file each. Each throws InputError (exit code 2) or RunError (1).
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "gl/context.hpp"
@@ -9,8 +10,9 @@
 
 namespace dioptre {
 
-/// The scene that the command line names, a file or builtin:NAME, else the studio; its warnings go to the log.
-Scene loadScene(const Command& command);
+/// The scene that the command line names, a file or builtin:NAME, else the studio; its warnings go to the log. `progress`
+/// is told, now and then, the share that is done, 0..1.
+Scene loadScene(const Command& command, const std::function<void(double)>& progress = {});
 
 /// What a single picture may take where nobody says.
 inline constexpr double kPictureMs = 1000.0;

@@ -15,13 +15,18 @@
 
 namespace dioptre {
 
-Scene loadScene(const Command& command) {
+Scene loadScene(const Command& command, const std::function<void(double)>& progress) {
     const std::string name = command.scene.empty() ? "builtin:studio" : command.scene;
     const auto builtin = builtinName(name);
     LoadLimits limits;
     limits.maxTotalBytes = static_cast<std::uint64_t>(command.settings.system.maxSceneMb) << 20;
     limits.maxImageSide = command.settings.system.maxTextureSide;
-    Scene scene = builtin ? loadBuiltin(*builtin, cacheFolder()) : loadGltf(name, limits);
+    BuiltinOptions making;
+    if (progress)
+        making.done = [&progress](std::size_t done, std::size_t parts) {
+            progress(static_cast<double>(done) / static_cast<double>(parts));
+        };
+    Scene scene = builtin ? loadBuiltin(*builtin, cacheFolder(), making) : loadGltf(name, limits, progress);
     for (const std::string& warning : scene.warnings) logWarning(warning);
     return scene;
 }

@@ -152,6 +152,26 @@ std::vector<HeadSample> readHeadTrace(const std::filesystem::path& file) {
     return trace;
 }
 
+std::string gazeTraceCsv(std::span<const GazeSample> trace) {
+    std::string csv = "t_s,x,y,valid\n";
+    for (const GazeSample& sample : trace)
+        csv += fmt::format("{},{},{},{}\n", printNumber(sample.time), printNumber(sample.position.x),
+                           printNumber(sample.position.y), sample.valid ? 1 : 0);
+    return csv;
+}
+
+std::string headTraceCsv(std::span<const HeadSample> trace) {
+    std::string csv = "t_s,x,y,z,qx,qy,qz,qw\n";
+    for (const HeadSample& sample : trace) {
+        const auto& [position, q] = sample.pose;
+        csv += printNumber(sample.time);
+        for (const double value : {position.x, position.y, position.z, q.x, q.y, q.z, q.w})
+            csv += "," + printNumber(value);
+        csv += "\n";
+    }
+    return csv;
+}
+
 GazeSample gazeAt(std::span<const GazeSample> trace, double time) {
     const std::size_t next = firstAfter(trace, time);
     if (next == 0 || std::isnan(time)) return {time, {0.5, 0.5}, false};

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "optics/view.hpp"
@@ -28,6 +29,10 @@ struct HeadSample {
 /// Throw InputError (file, line, column, value) for a file that breaks the rules above or has no sample.
 std::vector<GazeSample> readGazeTrace(const std::filesystem::path& file);
 std::vector<HeadSample> readHeadTrace(const std::filesystem::path& file);
+
+/// A file's text, which reads back to the same bits.
+std::string gazeTraceCsv(std::span<const GazeSample> trace);
+std::string headTraceCsv(std::span<const HeadSample> trace);
 
 /// Latest sample that is not after `time`; an invalid one where none is.
 GazeSample gazeAt(std::span<const GazeSample> trace, double time);

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 
 #include "scene/scene.hpp"
 
@@ -43,6 +44,8 @@ struct LoadLimits {
 /// Buffers and images must lie inside the scene's folder, links resolved; of all schemes only `data:` is followed.
 /// Names are UTF-8: an instance, camera or light has that of its node, or else its own; a scene its own or the file's.
 /// An instance keeps a matrix that mirrors (negative determinant): who draws it flips the winding.
-Scene loadGltf(const std::filesystem::path& path, const LoadLimits& limits = {});
+/// `progress` is told, now and then, the share that is done, 0..1.
+Scene loadGltf(const std::filesystem::path& path, const LoadLimits& limits = {},
+               const std::function<void(double)>& progress = {});
 
 }  // namespace dioptre

@@ -74,6 +74,24 @@ TEST(TracesTest, ReadsGaze) {
     EXPECT_EQ(trace[2].position, glm::dvec2(1.5, -0.5));
 }
 
+TEST(TracesTest, WhatIsWrittenReadsBackToTheSameBits) {
+    const std::vector<GazeSample> gaze = {{-0.5, {0.1, 1.0 / 3.0}, true}, {1e6 / 7.0, {1.5, -0.5}, false}};
+    const TraceFile gazeFile(gazeTraceCsv(gaze));
+    const auto gazeAgain = readGazeTrace(gazeFile.path());
+    ASSERT_EQ(gazeAgain.size(), gaze.size());
+    for (std::size_t i = 0; i < gaze.size(); ++i) {
+        EXPECT_EQ(gazeAgain[i].time, gaze[i].time);
+        EXPECT_EQ(gazeAgain[i].position, gaze[i].position);
+        EXPECT_EQ(gazeAgain[i].valid, gaze[i].valid);
+    }
+    const std::vector<HeadSample> head = {{0.25, {{1.0 / 3.0, -2.0, 3e-9}, {0.5, -0.5, 0.5, 0.5}}}};
+    const TraceFile headFile(headTraceCsv(head));
+    const auto headAgain = readHeadTrace(headFile.path());
+    ASSERT_EQ(headAgain.size(), 1u);
+    EXPECT_EQ(headAgain[0].time, head[0].time);
+    EXPECT_EQ(headAgain[0].pose, head[0].pose);
+}
+
 TEST(TracesTest, WindowsLineEndsBlankLinesCommentsAndByteOrderMark) {
     const TraceFile file("\xEF\xBB\xBF# recorded\r\nt_s,x,y,valid\r\n\r\n  0 , +0.25,1e-1,1\r\n\r\n1,0,0,0");
     const auto trace = readGazeTrace(file.path());
