@@ -345,8 +345,14 @@ Command parseCommandLine(int argc, const char* const* argv) {
         ->check(within(kMinFps, kMaxFps, false));
     CLI::App* view = app.add_subcommand(
         "view",
-        "show the scene in a window; the pointer is the gaze, another scene can be dropped onto it, Escape closes");
+        "show the scene in a window; the pointer is the gaze, F1 lists keys, F2 opens the settings, Escape closes");
     addScene(*view, result);
+    view->add_option(
+            "--gaze-input", result.gazeInput,
+            "live samples of an eye tracker, lines t_s,x,y,valid, in place of the pointer: on standard input, or "
+            "to a UDP port of this machine")
+        ->type_name("stdin|udp:PORT")
+        ->take_last();
     for (CLI::App* command : {render, view}) addLog(*command, result);
     CLI::App* inspect = app.add_subcommand(
         "inspect", "tell what a scene holds, what the lens can do with it, and what a view of it costs");

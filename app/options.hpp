@@ -42,6 +42,7 @@ struct Command {
     BudgetOptions budget;
     bool lods = false;             // inspect: tell of the levels of detail alone
     std::filesystem::path log;     // render, view: CSV of what was shown; empty: none
+    std::string gazeInput;         // view: where gaze samples come from; empty: nowhere
     std::filesystem::path config;  // already read into settings
     bool printConfig = false;      // print printSettings(settings) and stop
     Settings settings;             // defaults < config < command line

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gl/context.hpp"
+#include "viewer/monitor.hpp"
 
 struct GLFWwindow;
 
@@ -16,6 +17,11 @@ class Window final : public Context {
     Window(int width, int height, const std::string& title);
 
     GLFWwindow* handle() const { return window_.get(); }
+
+    /// Of the first screen; 60 Hz where it does not say.
+    double refreshMilliseconds() const;
+    /// To all of the monitor that shows most of it, and back to where it was.
+    void toggleFullScreen();
 
   private:
     struct Library {
@@ -29,6 +35,7 @@ class Window final : public Context {
     };
     Library library_;
     std::unique_ptr<GLFWwindow, Close> window_;
+    DesktopBox before_;  // full screen
 };
 
 }  // namespace dioptre

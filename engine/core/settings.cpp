@@ -104,6 +104,11 @@ std::vector<Setting> makeTable() {
              .help = "point looked at in an eye's picture, 0,0 is its top left and 1,1 its bottom right",
              .form = "X,Y",
              .limits = "each 0..1"}),
+        row<&S::focus, &Focus::gazeSource>(
+            {.group = "focus",
+             .name = "gaze-source",
+             .help = "what leads the gaze in a window where no trace does: the pointer, or the point that gaze says",
+             .choices = {"pointer", "point"}}),
         row<&S::focus, &Focus::dynamics>(
             {.group = "focus",
              .name = "focus-dynamics",
@@ -253,6 +258,11 @@ std::vector<Setting> makeTable() {
                                                           .unit = "px",
                                                           .min = 1.0,
                                                           .max = values::kLargestSide}),
+        row<&S::system, &SystemSettings::uiScale>({.group = "system",
+                                                   .name = "ui-scale",
+                                                   .help = "size of the window's text and buttons",
+                                                   .min = 0.5,
+                                                   .max = 4.0}),
     };
 }
 

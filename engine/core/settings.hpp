@@ -31,10 +31,12 @@ struct FocusChoice {
 };
 
 enum class DynamicsChoice { natural, snappy, instant };
+enum class GazeSource { pointer, point };
 
 struct FocusSettings {
     FocusChoice focus;
-    std::array<double, 2> gaze = {0.5, 0.5};  // x, y in 0..1 from the top left
+    std::array<double, 2> gaze = {0.5, 0.5};      // x, y in 0..1 from the top left
+    GazeSource gazeSource = GazeSource::pointer;  // in a window, where no trace says it
     DynamicsChoice dynamics = DynamicsChoice::natural;
     double gazeErrorDeg = 0.5;  // standard deviation of the tracker, degrees
     std::string gazeTrace;      // file; empty: none
@@ -50,6 +52,7 @@ struct PictureSize {
 
 enum class EyeChoice { left, right, centre, both };
 enum class DisplayChoice { mono, sideBySide, sideBySideHalf, topBottom, anaglyph };
+inline constexpr int kDisplays = 5;
 
 struct ViewSettings {
     std::string camera;                         // glTF camera, name or index; empty: the first
@@ -92,6 +95,7 @@ struct SystemSettings {
     ContextChoice context = ContextChoice::automatic;
     int maxSceneMb = 6144;       // memory that loading a scene may take, 2^20 bytes
     int maxTextureSide = 16384;  // px
+    double uiScale = 1.0;        // of the window's text
 };
 
 struct Settings {

@@ -28,8 +28,7 @@ bool FrameMaker::unseen(const Input& input) {
 
 Decision FrameMaker::decide(const Input& input) {
     unseen_ = unseen(input);
-    std::vector<View> views;
-    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
+    const std::vector<View> views = eyeViews();
     const Decision decision = planner_->decide({scene_, views, report_.lens.lens, input.time, input.budgetMilliseconds,
                                                 brightest_ > 1.0, unseen_, input.alone});
     for (const Omission& omission : planner_->requirements().omitted) report_.passes.skip(omission.what, omission.why);

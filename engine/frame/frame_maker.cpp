@@ -136,6 +136,53 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
     if (const Camera* camera = startCamera(scene, settings.view); camera && camera->node >= 0) camera_ = *camera;
 }
 
+void FrameMaker::change(const Scene& scene, const Settings& settings) {
+    // What may be refused comes first
+    requireDrawable(settings);
+    screenOf(settings.view);
+    const View start = startView(scene, settings.view);
+    const Camera* camera = startCamera(scene, settings.view);
+    LensPreset preset =
+        settings.lens.lens == settings_.lens.lens ? preset_ : loadLensPreset(lensFile(settings.lens.lens));
+    if (settings.focus.focus.mode == FocusMode::metres) checkFocus(preset, settings.focus.focus.metres);
+    const FocusSettings &before = settings_.focus, &after = settings.focus;
+    std::vector<GazeSample> gazeTrace;
+    std::vector<HeadSample> headTrace;
+    if (after.gazeTrace != before.gazeTrace && !after.gazeTrace.empty()) gazeTrace = readGazeTrace(after.gazeTrace);
+    if (after.headTrace != before.headTrace && !after.headTrace.empty()) headTrace = readHeadTrace(after.headTrace);
+
+    start_ = start;
+    camera_.reset();
+    if (camera && camera->node >= 0) camera_ = *camera;
+    preset_ = std::move(preset);
+    conditions_ = conditionsOf(settings.lens);
+    if (after.gazeTrace != before.gazeTrace) gazeTrace_ = std::move(gazeTrace);
+    if (after.headTrace != before.headTrace) headTrace_ = std::move(headTrace);
+    if (after.dynamics != before.dynamics)
+        filter_ = FocusFilter(focusPreset(dynamicsName(after.dynamics)), filter_.focus());
+    const auto plan = planOf(settings.render), planBefore = planOf(settings_.render);
+    const bool otherWay =
+        plan.has_value() != planBefore.has_value() || (plan && plan->technique != planBefore->technique);
+    if (otherWay || drawsBothEyes(settings.view) != drawsBothEyes(settings_.view)) {
+        eyes_.clear();
+        eyes_.resize(drawsBothEyes(settings.view) ? 2 : 1);
+        other_ = {};
+        lastShown_.reset();
+        lastEye_.reset();
+        fresh_ = true;
+    }
+    base_.reset();  // nothing goes on from what other settings drew
+    melting_ = 0.0;
+    refining_ = false;
+    named_ = plan.value_or(Plan());
+    if (plan)
+        planner_.reset();
+    else if (!planner_)
+        planner_.emplace();
+    brightest_ = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
+    settings_ = settings;
+}
+
 void FrameMaker::reportCut(const std::string& what) const {
     if (std::exchange(cutReported_, true)) return;
     logWarning(fmt::format("{}: light beyond {:.0f}, the most that half floats hold, is cut; lower --exposure", what,
@@ -180,8 +227,7 @@ void FrameMaker::placeEyes(const View& head) {
 }
 
 std::optional<FrameMaker::GazeDepth> FrameMaker::gazeDepth(const View& centre, bool mayLag) {
-    std::vector<View> views;
-    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
+    const std::vector<View> views = eyeViews();
     const Radians error(glm::radians(settings_.focus.gazeErrorDeg));
     // While the gaze is lost, the middle is watched: focus drifts there in the end.
     const GazeSample& gaze = report_.gaze;
@@ -227,10 +273,10 @@ const FrameReport& FrameMaker::make(const Input& input) {
     moveScene(input.time);
 
     // Head pose and gaze, depth at the gaze, focus
-    const View head = headView(input);
-    placeEyes(head);
-    const Dioptres wanted = focusNow(head, input);
-    const bool first = !lastTime_;
+    head_ = headView(input);
+    placeEyes(head_);
+    const Dioptres wanted = focusNow(head_, input);
+    const bool first = std::exchange(fresh_, false);
     const double step = input.time - lastTime_.value_or(input.time);
     lastTime_ = input.time;
 
@@ -286,8 +332,27 @@ void FrameMaker::addLevels(const std::vector<BuiltLevel>& levels) {
     for (const BuiltLevel& built : levels) scene_.addLevel(built.mesh, built.primitive, built.data);
 }
 
-void FrameMaker::present(PictureSize window) {
-    compositor_.present(window, report_.passes);
+void FrameMaker::present(const Placement& area) {
+    PassLog unread;  // a frame may be shown more than once
+    compositor_.present(area, unread);
+}
+
+double FrameMaker::progress() const {
+    double least = 1.0;
+    if (!planner_)
+        for (const DrawnEye& eye : eyes_) least = std::min(least, eye.drawing.technique().progress());
+    if (!report_.decision || !report_.decision->refinement) return least;
+    // More than the reference's own number of samples is not waited for.
+    const double enough = defaultSamples(TechniqueChoice::reference);
+    if (report_.decision->fade || !base_) return 0.0;
+    for (const DrawnEye& eye : eyes_) least = std::min(least, eye.drawing.refinedSamples() / enough);
+    return least;
+}
+
+std::vector<View> FrameMaker::eyeViews() const {
+    std::vector<View> views;
+    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
+    return views;
 }
 
 std::size_t FrameMaker::techniqueBytes() const {

@@ -76,13 +76,26 @@ class FrameMaker {
     /// What a technique that draws levels of detail is to draw from the next frame on.
     void addLevels(const std::vector<BuiltLevel>& levels);
 
-    /// The last frame: read back, linear; or shown in the window's framebuffer of that size.
+    /// Other settings from the next frame on, for the scene that it was made with; focus goes on from where it is.
+    /// InputError changes nothing.
+    void change(const Scene& scene, const Settings& settings);
+
+    /// The last frame: read back, linear; or shown in a part of the window's framebuffer (Compositor::present).
     Image composed() const;  // warns, once, of radiance that half floats could not hold
-    void present(PictureSize window);
+    void present(const Placement& area);
+    /// From the next frame on: its stages are timed (PassLog::timed), which makes it slower.
+    void timeStages(bool timed) { report_.passes.timed = timed; }
+    /// How much of what was asked for the last frame has, 0..1; below 1 while a still view refines.
+    double progress() const;
     /// What the last frame shows as another plan draws it, composed, read back, linear. The frame stays as it is.
     Image pictureBy(const Plan& plan);
 
     const View& startingView() const { return start_; }  // of the last frame's time
+    const View& head() const { return head_; }           // of the last frame, midway between the eyes
+    std::vector<View> eyeViews() const;                  // of the last frame: one, or left and right
+    const FrameReport& report() const { return report_; }
+    const Texture& composedTexture() const { return *composed_; }  // the last frame
+    const FocusFilter& focusFilter() const { return filter_; }
     std::size_t techniqueBytes() const;
     const GpuScene& scene() const { return scene_; }
 
@@ -124,7 +137,7 @@ class FrameMaker {
     Settings settings_;
     GpuScene scene_;
     std::shared_ptr<const Motion> motion_;
-    View start_;
+    View start_, head_;
     std::optional<Camera> camera_;  // that start_ moves with
     LensPreset preset_;
     LensConditions conditions_;
@@ -134,6 +147,7 @@ class FrameMaker {
     FocusFilter filter_;
     GazeSample awaited_;  // the gaze whose depth is being read
     std::optional<double> lastTime_;
+    bool fresh_ = true;           // nothing was drawn yet by these eyes and this way to draw
     std::vector<DrawnEye> eyes_;  // one, or left and right
     Plan named_;                  // by the settings, where there is no planner
     std::optional<FramePlanner> planner_;

@@ -79,12 +79,14 @@ const Texture& Compositor::compose(const Composition& composition, PassLog& log)
     return output_;
 }
 
-void Compositor::present(PictureSize window, PassLog& log) {
+void Compositor::present(const Placement& area, PassLog& log) {
     PassScope scope(log, "present");
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
-    const Placement place = fitted({output_.width(), output_.height()}, window);
+    Placement place = fitted({output_.width(), output_.height()}, {area.width, area.height});
+    place.x += area.x;
+    place.y += area.y;
     glViewport(place.x, place.y, place.width, place.height);
     draw({output_, output_, DisplayChoice::mono, false, ToneMapChoice::none}, place, true);
 }

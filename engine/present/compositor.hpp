@@ -32,8 +32,9 @@ class Compositor {
   public:
     /// Linear, RGBA32F, composedSize; valid until the next call.
     const Texture& compose(const Composition& composition, PassLog& log);
-    /// The last composition, sRGB-encoded, fitted into the window's framebuffer (0) of that size, black around it.
-    void present(PictureSize window, PassLog& log);
+    /// The last composition, sRGB-encoded, fitted into that part (y upwards) of the window's framebuffer (0), black
+    /// around it.
+    void present(const Placement& area, PassLog& log);
 
   private:
     const FullscreenPass& passFor(const Composition& composition, bool encode);

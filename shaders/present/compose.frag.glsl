@@ -1,8 +1,10 @@
-// Two eyes' linear radiance to one picture; the only place where the window's sRGB is made. One program for each way: on a
-// software renderer, which runs both sides of an `if`, one for all took ten times as long.
+// Two eyes' linear radiance to one picture. One program for each way: on a software renderer, which runs both sides of an
+// `if`, one for all took ten times as long.
 //   MONO, SIDE_BY_SIDE, SIDE_BY_SIDE_HALF, TOP_BOTTOM, ANAGLYPH: one of them
 //   NEUTRAL  Khronos PBR Neutral tone mapping
 //   ENCODE   to sRGB, for a window
+#include "present/srgb.glsl"
+
 layout(binding = 0) uniform sampler2D leftEye;
 layout(binding = 1) uniform sampler2D rightEye;
 uniform vec2 origin;   // of the picture in the target, pixels
@@ -48,11 +50,6 @@ vec3 toneMapNeutral(vec3 c) {
     float newPeak = 1.0 - d * d / (peak + d - kStart);
     c *= newPeak / peak;
     return mix(c, vec3(newPeak), 1.0 - 1.0 / (kDesaturation * (peak - newPeak) + 1.0));
-}
-
-vec3 sRgb(vec3 c) {
-    c = clamp(c, 0.0, 1.0);
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 
 void main() {

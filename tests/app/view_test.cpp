@@ -1,18 +1,40 @@
-// dioptre view in a window of a display in memory; skipped where xvfb-run or xdotool is missing.
+// dioptre view in a window of a display in memory; skipped where xvfb-run, xdotool or openbox is missing.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/color.hpp"
+#include "core/image.hpp"
+#include "core/settings.hpp"
 #include "program.hpp"
 
 namespace dioptre::test {
 namespace {
 
+/// The largest difference of two pictures, in steps of 1/255 of what a screen shows.
+double stepsApart(const Image& a, const Image& b) {
+    if (a.width != b.width || a.height != b.height) return 1e9;
+    double most = 0.0;
+    const auto shown = [](float value) { return static_cast<double>(srgbFromLinear(clampUnit(value))); };
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        most = std::max(most, 255.0 * std::abs(shown(a.pixels[i]) - shown(b.pixels[i])));
+    return most;
+}
+
 class ViewTest : public ProgramTest {
   protected:
-    /// Opens the scene, with options, in a window of 320x120, does the steps (a shell script: $window, $program, $drop), and waits until
-    /// the program ends.
-    Outcome view(const std::string& steps, const std::string& scene = "scene.gltf") {
+    /// Opens the scene, with options, in a window of 320x120, does the steps (a shell script: $window, $program, $drop,
+    /// and the functions below), and waits until the program ends.
+    Outcome view(const std::string& steps, const std::string& scene = "scene.gltf", bool managed = false,
+                 const std::string& before = "") {
         leaksAllowed = true;
-        write("steps.sh",
-              "export XDG_CACHE_HOME=$PWD/cache; \"$1\" view " + scene + R"( --size 160x120 --log log.csv & program=$!
+        write("steps.sh", before + (managed ? "openbox & manager=$!; sleep 1\n" : "") +
+                              "export XDG_CACHE_HOME=$PWD/cache; \"$1\" view " + scene +
+                              R"( --size 160x120 --log log.csv & program=$!
 drop=$2
+grab() { "$grabber" "$window" "$1" || exit 93; } # what the window shows, to a PNG
+grabber=$3
 for try in $(seq 100); do
     window=$(xdotool search --onlyvisible --name '^Dioptre: .*focus' 2>/dev/null) && break
     kill -0 $program || exit 90
@@ -27,6 +49,20 @@ title() { # waits for one that holds $1
     xdotool getwindowname "$window"
     exit 91
 }
+there() { # waits for a file
+    for try in $(seq 100); do
+        [ -s "$1" ] && return
+        sleep 0.1
+    done
+    exit 94
+}
+setting() { # NAME VALUE, typed into the panel's search
+    xdotool key ctrl+f
+    sleep 0.4
+    xdotool type --delay 30 "$1 $2"
+    xdotool key Return
+    sleep 0.4
+}
 )" + steps + R"(
 sleep 0.5
 for try in $(seq 50); do
@@ -34,19 +70,32 @@ for try in $(seq 50); do
     xdotool key Escape
     sleep 0.2
 done
-wait $program
+wait $program; status=$?
+[ -z "$manager" ] || kill $manager
+exit $status
 )");
         // Tests that run at once must not look for a free display from the same number on.
         const std::string firstDisplay = std::to_string(100 + ::getpid() % 30000);
         return runProgram("xvfb-run", {"-a", "-n", firstDisplay, "-s", "-screen 0 800x600x24", "sh", "steps.sh",
-                                       DIOPTRE_PROGRAM, DIOPTRE_DROP});
+                                       DIOPTRE_PROGRAM, DIOPTRE_DROP, DIOPTRE_GRAB});
     }
 
     void SetUp() override {
-        if (runProgram("sh", {"-c", "command -v xvfb-run && command -v xdotool"}).status != 0)
-            GTEST_SKIP() << "xvfb-run or xdotool is not there";
+        if (runProgram("sh", {"-c", "command -v xvfb-run && command -v xdotool && command -v openbox"}).status != 0)
+            GTEST_SKIP() << "xvfb-run, xdotool or openbox is not there";
     }
     std::vector<std::string> log() const { return linesOf(read("log.csv")); }
+    Settings settingsIn(const std::string& name) const {
+        Settings settings;
+        loadSettings(folder / name, settings);
+        return settings;
+    }
+    /// The picture that a key wrote is the one that `render` draws by the settings beside it.
+    void expectDrawnAgain(const std::string& name, const std::string& scene = "scene.gltf") const {
+        const Outcome outcome = run({"render", scene, "--config", name + ".json", "--out", "again.png"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_LE(stepsApart(readImage(folder / (name + ".png")), readImage(folder / "again.png")), 1.01) << name;
+    }
 };
 
 TEST_F(ViewTest, EscapeClosesTheWindowAndLeavesTheLog) {
@@ -94,6 +143,8 @@ TEST_F(ViewTest, AFileDroppedIsShownOrRefused) {
 "$drop" "$window" scene.broken.gltf
 title 'scene.broken.gltf: JSON'
 kill -0 $program || exit 92
+xdotool key Escape
+title 'Dioptre: scene  focus'
 "$drop" "$window" scene.another.gltf
 title 'Dioptre: another  focus'
 )");
@@ -116,6 +167,198 @@ ls cache/dioptre/lods | wc -l
     EXPECT_EQ(outcome.err, "");
     ASSERT_FALSE(outcome.out.empty());
     EXPECT_GT(std::stoi(linesOf(outcome.out).back()), 0) << outcome.out;
+}
+
+TEST_F(ViewTest, TheScreenShowsThePictureThatIsWritten) {
+    if (std::string(DIOPTRE_GRAB).empty()) GTEST_SKIP() << "built without X11";
+    const Outcome outcome = view(R"(
+xdotool mousemove --window "$window" 40 60
+sleep 2
+grab screen.png
+xdotool key F12
+there dioptre-0001.json
+)",
+                                 "scene.gltf --technique mipmap");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const Image png = readImage(folder / "dioptre-0001.png"), exr = readImage(folder / "dioptre-0001.exr");
+    EXPECT_LE(stepsApart(png, exr), 0.51) << "8 bits";
+    // A focus that has all but arrived was shown; the one it has arrived at was written.
+    EXPECT_LE(stepsApart(readImage(folder / "screen.png"), png), 2.01);
+    expectDrawnAgain("dioptre-0001");
+    EXPECT_NEAR(settingsIn("dioptre-0001.json").focus.focus.metres, 0.4, 0.01) << "of the square under the pointer";
+}
+
+TEST_F(ViewTest, KeysAndMouseMoveTheHead) {
+    const Outcome outcome = view(R"(
+xdotool mousemove --window "$window" 40 60
+xdotool keydown w; sleep 0.4; xdotool keyup w
+xdotool key F12; there dioptre-0001.json
+xdotool mousedown 3; sleep 0.3; xdotool mousemove_relative 20 0; sleep 0.3; xdotool mouseup 3
+xdotool key F12; there dioptre-0002.json
+xdotool click 4; sleep 0.3
+xdotool key F12; there dioptre-0003.json
+xdotool mousedown 1; sleep 0.3; xdotool mousemove_relative 0 10; sleep 0.3; xdotool mouseup 1
+xdotool key F12; there dioptre-0004.json
+xdotool key Home; sleep 0.3
+xdotool key F12; there dioptre-0005.json
+)");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const auto pose = [&](int n) { return settingsIn(fmt::format("dioptre-{:04}.json", n)).view.pose; };
+    for (int n = 1; n <= 4; ++n) ASSERT_TRUE(pose(n).has_value()) << n;
+    EXPECT_LT((*pose(1))[2], -0.05) << "W flies ahead, along -z";
+    EXPECT_EQ((*pose(1))[0], 0.0);
+    EXPECT_NE((*pose(2))[4], (*pose(1))[4]) << "a right drag turns";
+    EXPECT_EQ((*pose(2))[2], (*pose(1))[2]) << "on the spot";
+    EXPECT_NE((*pose(3))[2], (*pose(2))[2]) << "the wheel moves";
+    EXPECT_EQ((*pose(3))[4], (*pose(2))[4]) << "and turns nothing";
+    EXPECT_NE((*pose(4))[1], (*pose(3))[1]) << "a left drag goes around";
+    EXPECT_FALSE(pose(5).has_value()) << "Home is the camera";
+    for (const int n : {1, 4, 5}) expectDrawnAgain(fmt::format("dioptre-{:04}", n));
+}
+
+TEST_F(ViewTest, ARecordingIsReplayedByRender) {
+    const Outcome outcome = view(R"(
+xdotool mousemove --window "$window" 40 60; sleep 0.3
+xdotool key r; sleep 0.3
+xdotool mousemove --window "$window" 120 20; sleep 0.3
+xdotool keydown d; sleep 0.3; xdotool keyup d
+xdotool key r
+there dioptre-0001.json
+)");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(read("dioptre-0001.head.csv").starts_with("t_s,x,y,z,qx,qy,qz,qw\n"));
+    EXPECT_THAT(read("dioptre-0001.gaze.csv"), testing::HasSubstr(",0.25,0.5,1\n"));
+    const Outcome replay = run({"render", "scene.gltf", "--config", "dioptre-0001.json", "--frames", "3", "--fps", "2",
+                                "--out", "replay", "--log", "replay.csv"});
+    ASSERT_EQ(replay.status, 0) << replay.err;
+    EXPECT_THAT(linesOf(read("replay.csv")).at(1), testing::HasSubstr(",0.25000,0.50000,1,"));
+    EXPECT_THAT(linesOf(read("replay.csv")).at(3), testing::HasSubstr(",0.75000,0.16667,1,"));
+}
+
+TEST_F(ViewTest, SettingsAreEditedTakenBackAndRefused) {
+    write("mine.json", R"({"view": {"display": "top-bottom"}, "lens": {"aperture-mm": 7}})");
+    const Outcome outcome = view(R"(
+title 'mipmap, msaa 4'
+setting technique pinhole
+title 'pinhole, msaa 4'
+xdotool key ctrl+z
+title 'mipmap, msaa 4'
+xdotool key ctrl+y
+title 'pinhole, msaa 4'
+setting show level
+setting ipd-mm 5000
+setting aperture-mm 3
+title 'pinhole, msaa 4'
+xdotool key F12; there dioptre-0001.json
+"$drop" "$window" mine.json
+sleep 0.5
+xdotool key F12; there dioptre-0002.json
+xdotool key ctrl+z; sleep 0.5
+xdotool key v; sleep 0.3; xdotool key x; sleep 0.3
+xdotool key F12; there dioptre-0003.json
+)",
+                                 "scene.gltf --technique mipmap");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const Settings first = settingsIn("dioptre-0001.json"), second = settingsIn("dioptre-0002.json"),
+                   third = settingsIn("dioptre-0003.json");
+    EXPECT_EQ(first.render.technique, TechniqueChoice::pinhole);
+    EXPECT_EQ(first.render.show.stage, ShowChoice::none) << "level is no stage of pinhole";
+    EXPECT_EQ(first.view.ipdMm, 63.0);
+    EXPECT_EQ(first.lens.apertureMm, 3.0);
+    EXPECT_EQ(second.lens.apertureMm, 7.0);
+    EXPECT_EQ(second.view.display, DisplayChoice::topBottom);
+    EXPECT_EQ(third.lens.apertureMm, 3.0);
+    EXPECT_EQ(third.view.display, DisplayChoice::sideBySideHalf);
+    EXPECT_TRUE(third.view.swapEyes);
+    for (const char* name : {"dioptre-0001", "dioptre-0002", "dioptre-0003"}) expectDrawnAgain(name);
+}
+
+TEST_F(ViewTest, ValuesInThePanelAreSetByTheMouse) {
+    // The search leaves one row: name, value, unit.
+    const Outcome outcome = view(R"(
+find() { xdotool key ctrl+f; sleep 0.4; xdotool type --delay 30 "$1"; sleep 0.4; }
+find swap-eyes
+xdotool mousemove --window "$window" 170 95; sleep 0.2; xdotool click 1; sleep 0.4
+find ipd-mm
+xdotool mousemove --window "$window" 185 95; sleep 0.2
+xdotool mousedown 1; sleep 0.2; xdotool mousemove_relative 8 0; sleep 0.2; xdotool mousemove_relative 8 0; sleep 0.2
+xdotool mouseup 1; sleep 0.4
+xdotool key F12; there dioptre-0001.json
+xdotool key ctrl+z; sleep 0.4
+xdotool key F12; there dioptre-0002.json
+)");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const Settings dragged = settingsIn("dioptre-0001.json"), undone = settingsIn("dioptre-0002.json");
+    EXPECT_TRUE(dragged.view.swapEyes);
+    EXPECT_GT(dragged.view.ipdMm, 64.0);
+    EXPECT_EQ(undone.view.ipdMm, 63.0) << "a drag is one edit";
+    EXPECT_TRUE(undone.view.swapEyes);
+    EXPECT_FALSE(dragged.view.pose.has_value()) << "what is typed and dragged in the panel moves nothing else";
+    EXPECT_EQ(dragged.view.display, DisplayChoice::sideBySide);
+}
+
+TEST_F(ViewTest, AStillViewSleeps) {
+    const Outcome outcome = view(R"(
+xdotool mousemove --window "$window" 40 60
+sleep 3
+ticks() { set -- $(cat /proc/$program/stat); shift 13; echo $(($1 + $2)); }
+before=$(ticks); sleep 4; after=$(ticks)
+echo $((100 * (after - before) / (4 * $(getconf CLK_TCK))))
+)",
+                                 "scene.gltf --technique mipmap");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_LT(std::stoi(linesOf(outcome.out).back()), 5) << "percent of a core";
+}
+
+TEST_F(ViewTest, ATrackerLeadsTheGaze) {
+    // Half of the samples are broken; then none come, and focus stays.
+    const Outcome outcome = view(R"(
+xdotool mousemove --window "$window" 300 10
+for i in $(seq 40); do
+    printf '%s.0,0.25,0.5,1\nbroken\n' "$i" > samples
+    sleep 0.05
+done
+sleep 1
+xdotool key F12; there dioptre-0001.json
+)",
+                                 "scene.gltf --gaze-input stdin <>samples", false, "mkfifo samples\n");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_NEAR(settingsIn("dioptre-0001.json").focus.focus.metres, 0.4, 0.01) << "of the square at the gaze";
+}
+
+TEST_F(ViewTest, FullScreenAndBack) {
+    const Outcome outcome = view(R"(
+xdotool key F11; sleep 1
+xdotool getwindowgeometry "$window"
+xdotool key F11; sleep 1
+xdotool getwindowgeometry "$window"
+)",
+                                 "scene.gltf", true);
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const std::size_t full = outcome.out.find("Geometry: 800x600"), back = outcome.out.find("Geometry: 320x120");
+    EXPECT_NE(full, std::string::npos) << outcome.out;
+    EXPECT_NE(back, std::string::npos) << outcome.out;
+    EXPECT_LT(full, back);
+}
+
+TEST_F(ViewTest, MinimisedOrTinyItGoesOn) {
+    const Outcome outcome = view(R"(
+xdotool windowminimize "$window"; sleep 1
+xdotool windowmap "$window"; sleep 1
+xdotool windowsize --sync "$window" 320 200
+xdotool windowfocus "$window"
+xdotool key F2; sleep 0.5
+grab panel.png
+xdotool key F1; sleep 0.5
+grab keys.png
+xdotool key F1; sleep 0.2; xdotool key F2; sleep 0.5
+xdotool key F12; there dioptre-0001.json
+)",
+                                 "scene.gltf", true);
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_EQ(readImage(folder / "panel.png").width, 320);
+    EXPECT_GT(stepsApart(readImage(folder / "panel.png"), readImage(folder / "keys.png")), 100.0);
+    expectDrawnAgain("dioptre-0001");
 }
 
 TEST_F(ViewTest, WithoutADisplayTheRunFailsInOneLine) {

@@ -247,5 +247,108 @@ TEST_F(FrameMakerGLTest, AllDisplaysOfOneEyeOrTwo) {
         }
 }
 
+FrameMaker::Input at(double time) {
+    FrameMaker::Input input;
+    input.time = time;
+    return input;
+}
+
+TEST_F(FrameMakerGLTest, ChangedSettingsDrawWhatAFreshOneDraws) {
+    const Scene scene = leftNearRightFar();
+    Settings s = someSettings();
+    FrameMaker maker(scene, s);
+    maker.make({});
+    double time = 100.0;
+    // One after another, each on top of those before
+    const std::pair<const char*, const char*> edits[] = {{"aperture-mm", "12"},
+                                                         {"technique", "pinhole"},
+                                                         {"technique", "reference"},
+                                                         {"samples", "5"},
+                                                         {"technique", "mipmap"},
+                                                         {"show", "coc"},
+                                                         {"show", "none"},
+                                                         {"msaa", "4"},
+                                                         {"focus", "0.7"},
+                                                         {"lens", "camera-50mm-f1.4"},
+                                                         {"pose", "0.1,0,0.2,0,0,0,1"},
+                                                         {"pose", ""},
+                                                         {"size", "100x80"},
+                                                         {"display", "top-bottom"},
+                                                         {"display", "mono"},
+                                                         {"display", "anaglyph"},
+                                                         {"eye", "left"},
+                                                         {"eye", "both"},
+                                                         {"ipd-mm", "90"},
+                                                         {"swap-eyes", "true"},
+                                                         {"exposure", "-1"},
+                                                         {"tonemap", "neutral"},
+                                                         {"focus", "gaze"},
+                                                         {"gaze", "0.2,0.7"}};
+    for (const auto& [name, value] : edits) {
+        applySetting(s, name, value);
+        maker.change(scene, s);
+        time -= 1.0;  // a jump back: focus is settled, as in a first frame
+        FrameMaker fresh(scene, s);
+        EXPECT_EQ(planText(maker.make(at(time)).plan), planText(fresh.make(at(time)).plan));
+        EXPECT_EQ(maker.composed().pixels, fresh.composed().pixels) << name << " " << value;
+    }
+}
+
+TEST_F(FrameMakerGLTest, ARefusedChangeChangesNothing) {
+    const Scene scene = leftNearRightFar();
+    const Settings s = someSettings();
+    FrameMaker maker(scene, s);
+    maker.make(at(100.0));
+    const Image before = maker.composed();
+    const std::pair<const char*, const char*> edits[] = {
+        {"lens", "no-such-lens"},         {"camera", "none"},
+        {"size", "16384x16384"},          {"focus", "0.001"},
+        {"gaze-trace", "/no/such/trace"}, {"head-trace", "/no/such"},
+        {"screen-width-mm", "300"},       {"screen-distance-mm", "300"}};
+    for (const auto& [name, value] : edits) {
+        Settings wrong = s;
+        applySetting(wrong, name, value);
+        EXPECT_THROW(maker.change(scene, wrong), InputError) << name;
+        maker.make(at(50.0));
+        maker.make(at(100.0));
+        maker.make(at(99.0));
+        EXPECT_EQ(maker.composed().pixels, before.pixels) << name;
+    }
+}
+
+/// Textures, buffers, framebuffers and programs that there are.
+int glObjects() {
+    int count = 0;
+    for (GLuint name = 1; name < 20000; ++name)
+        count += (glIsTexture(name) ? 1 : 0) + (glIsBuffer(name) ? 1 : 0) + (glIsFramebuffer(name) ? 1 : 0) +
+                 (glIsProgram(name) ? 1 : 0);
+    return count;
+}
+
+TEST_F(FrameMakerGLTest, TwoThousandFramesOfChangesLeaveNothingBehind) {
+    const int before = glObjects();
+    int first = 0;
+    for (int round = 0; round < 10; ++round) {
+        const Scene scene = leftNearRightFar();
+        Settings s = someSettings();
+        s.view.size = {24, 18};
+        s.render.samples = 4;
+        FrameMaker maker(scene, s);
+        double time = 0.0;
+        for (const TechniqueChoice technique : kTechniques) {
+            s.render.technique = technique;
+            s.view.display = round % 2 ? DisplayChoice::sideBySide : DisplayChoice::anaglyph;
+            for (int i = 0; i < 50; ++i) {
+                s.view.ipdMm = 60.0 + i;
+                maker.change(scene, s);
+                maker.make(at(time += 0.01));
+            }
+        }
+        if (round == 0) first = glObjects();
+        EXPECT_EQ(glObjects(), first) << "round " << round;
+    }
+    EXPECT_EQ(glObjects(), before);
+}
+
 }  // namespace
 }  // namespace dioptre

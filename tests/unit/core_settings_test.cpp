@@ -66,6 +66,7 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"luminance", "1"},
                                      {"focus", "2"},
                                      {"gaze", "0,0"},
+                                     {"gaze-source", "point"},
                                      {"focus-dynamics", "instant"},
                                      {"gaze-error-deg", "1"},
                                      {"gaze-trace", "g"},
@@ -92,7 +93,8 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"tonemap", "neutral"},
                                      {"context", "egl"},
                                      {"max-scene-mb", "100"},
-                                     {"max-texture-side", "256"}})
+                                     {"max-texture-side", "256"},
+                                     {"ui-scale", "2"}})
         applySetting(settings, name, text);
     for (const Setting& setting : settingsTable())
         EXPECT_NE(setting.get(settings, setting), setting.defaultText) << setting.name << " is missing in this test";

@@ -1,0 +1,143 @@
+#include "viewer/split_view.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "metrics/metrics.hpp"
+
+namespace dioptre {
+
+namespace {
+
+Image imageOf(const Texture& texture) {
+    Image image(texture.width(), texture.height());
+    image.pixels = readTexture(texture, GL_RGB, 3);
+    return image;
+}
+
+}  // namespace
+
+bool SplitView::drawPanel() {
+    bool changed = false;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("compare with");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    const std::string current(other_ ? techniqueName(*other_) : "nothing");
+    if (ImGui::BeginCombo("##compare", current.c_str())) {
+        if (ImGui::Selectable("nothing", !other_)) {
+            other_.reset();
+            changed = true;
+        }
+        for (const TechniqueChoice technique : kTechniques) {
+            if (!ImGui::Selectable(std::string(techniqueName(technique)).c_str(), other_ == technique)) continue;
+            other_ = technique;
+            changed = true;
+        }
+        ImGui::EndCombo();
+    }
+    if (!other_) return changed;
+    if (ImGui::RadioButton("right of a line", !difference_)) difference_ = false;
+    ImGui::SameLine();
+    if (ImGui::RadioButton("difference x 4", difference_)) difference_ = true;
+    if (measured_)
+        ImGui::Text("PSNR %.1f dB, SSIM %.4f", measured_->psnr, measured_->ssim);
+    else if (progress() < 1.0)
+        ImGui::Text("%s: %.0f %%", current.c_str(), 100.0 * progress());
+    else
+        ImGui::TextUnformatted("PSNR and SSIM follow once nothing moves");
+    return changed;
+}
+
+void SplitView::draw(const FrameMaker& maker, const Settings& settings, double budgetMilliseconds) {
+    const std::vector<View> views = maker.eyeViews();
+    if (made_ != other_ || techniques_.size() != views.size()) {
+        techniques_.clear();
+        for (std::size_t i = 0; i < views.size(); ++i) techniques_.push_back(makeTechnique(*other_));
+        made_ = other_;
+    }
+    RenderSettings render = settings.render;
+    render.technique = *other_;
+    render.samples.reset();
+    const Plan plan = planOf(render).value_or(Plan());
+    // As many samples as last time, but for what that took more or less than the budget
+    const double start = nowMilliseconds();
+    std::vector<const Texture*> pictures;
+    PassLog unread;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        EyeFrame frame{
+            maker.scene(), views[i], maker.report().lens.lens, static_cast<float>(std::exp2(render.exposureEv)), 0, {},
+            unread};
+        apply(plan, frame);
+        frame.samplesNow = samplesNow_;
+        pictures.push_back(&techniques_[i]->draw(frame));
+    }
+    glFinish();
+    constexpr double kMostChange = 2.0;
+    const double change =
+        std::clamp(budgetMilliseconds / std::max(nowMilliseconds() - start, 1e-3), 1.0 / kMostChange, kMostChange);
+    samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, plan.samples.value_or(1));
+    const DisplayChoice display = views.size() == 1 ? DisplayChoice::mono : settings.view.display;
+    picture_ = &compositor_.compose(
+        {*pictures.front(), *pictures.back(), display, settings.view.swapEyes, render.tonemap}, unread);
+}
+
+double SplitView::progress() const {
+    double least = 1.0;
+    for (const auto& technique : techniques_) least = std::min(least, technique->progress());
+    return least;
+}
+
+bool SplitView::measurable() const {
+    constexpr int kSmallest = 11;  // of SSIM
+    return picture_ && std::min(picture_->width(), picture_->height()) >= kSmallest;
+}
+
+void SplitView::forget() {
+    measured_.reset();
+    outdated_ = true;
+}
+
+void SplitView::measure(const FrameMaker& maker) {
+    if (measuring_.valid()) {
+        if (measuring_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+        const Distance distance = measuring_.get();
+        if (!outdated_) measured_ = distance;
+    }
+    if (measured_ || !measurable()) return;
+    outdated_ = false;
+    measuring_ = std::async(std::launch::async, [a = maker.composed(), b = imageOf(*picture_)] {
+        return Distance{psnr(b, a), ssim(b, a)};
+    });
+}
+
+void SplitView::present(const FrameMaker& maker, const Placement& area) {
+    if (!picture_) return;
+    Placement place = fitted({picture_->width(), picture_->height()}, {area.width, area.height});
+    place.x += area.x;
+    place.y += area.y;
+    if (difference_) {
+        if (!subtract_.program()) subtract_ = FullscreenPass("present/difference.frag.glsl");
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        glViewport(place.x, place.y, place.width, place.height);
+        maker.composedTexture().bind(0);
+        picture_->bind(1);
+        subtract_.program().set("origin", glm::vec2(place.x, place.y));
+        subtract_.program().set("size", glm::vec2(place.width, place.height));
+        subtract_.draw();
+        return;
+    }
+    const int left = static_cast<int>(std::lround(line_ * place.width));
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(place.x + left, place.y, place.width - left, place.height);
+    PassLog unread;
+    compositor_.present(area, unread);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace dioptre

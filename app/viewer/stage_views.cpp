@@ -1,0 +1,109 @@
+#include "viewer/stage_views.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace dioptre {
+
+namespace {
+
+constexpr int kWidth = 192;  // pixels
+constexpr int kColumns = 3;
+
+struct NamedStage {
+    ShowChoice stage;
+    const char* name;
+    std::optional<TechniqueChoice> only;  // none: every technique has it
+};
+const NamedStage kStages[] = {{ShowChoice::none, "picture", {}},
+                              {ShowChoice::vergence, "vergence", {}},
+                              {ShowChoice::coc, "coc", {}},
+                              {ShowChoice::dob, "dob", {}},
+                              {ShowChoice::don, "don", TechniqueChoice::mipmap},
+                              {ShowChoice::level, "level", TechniqueChoice::mipmap},
+                              {ShowChoice::lod, "lod", TechniqueChoice::accumulate}};
+
+const char* nameOf(const ShowStage& stage) {
+    const auto named = std::find_if(std::begin(kStages), std::end(kStages),
+                                    [&](const NamedStage& candidate) { return candidate.stage == stage.stage; });
+    return named != std::end(kStages) ? named->name : "";
+}
+
+}  // namespace
+
+void StageViews::prepare(TechniqueChoice technique, int height) {
+    if (choice_ != technique) {
+        technique_ = makeTechnique(technique);
+        choice_ = technique;
+        stages_.clear();
+    }
+    if (!stages_.empty() && stages_.front().picture.height() == height) return;
+    stages_.clear();
+    next_ = fresh_ = 0;
+    for (const NamedStage& stage : kStages) {
+        if (stage.only && stage.only != technique) continue;
+        Small& small = stages_.emplace_back();
+        small.stage = {stage.stage, 0};
+        small.picture = Texture({GL_RGBA8, kWidth, height, 1, 0}, "stage in the panel");
+        small.picture.setLinear(false);
+        const Framebuffer::Attachment color[] = {{&small.picture, 0}};
+        small.target = Framebuffer(color, nullptr, "stage in the panel");
+    }
+    if (!encode_.program()) encode_ = FullscreenPass("present/compose.frag.glsl");
+}
+
+void StageViews::drawNext(const GpuScene& scene, const View& head, const Lens& lens, const Plan& plan,
+                          double exposure) {
+    View view = head;
+    view.width = kWidth;
+    view.height = std::max(1, kWidth * head.height / head.width);
+    prepare(plan.technique, view.height);
+    Small& small = stages_[next_];
+    PassLog unread;
+    EyeFrame frame{scene, view, lens, static_cast<float>(std::exp2(exposure)), 0, small.stage, unread};
+    apply(plan, frame);
+    // A few points of the lens are enough for a thumbnail.
+    constexpr int kSamples = 8;
+    frame.samples = std::min(frame.samples, kSamples);
+    technique_->draw(frame).bind(0);
+    small.target.bind();
+    const Program& program = encode_.program();
+    program.set("mode", 0);
+    program.set("origin", glm::vec2(0.0f));
+    program.set("size", glm::vec2(small.target.width(), small.target.height()));
+    program.set("neutral", 0);
+    program.set("encode", 1);
+    encode_.draw();
+    next_ = (next_ + 1) % stages_.size();
+    ++fresh_;
+}
+
+std::optional<ShowStage> StageViews::draw(const ShowStage& current) {
+    shown_ = true;
+    std::optional<ShowStage> clicked;
+    if (stages_.empty() || !ImGui::BeginTable("stages", kColumns)) return clicked;
+    for (const Small& small : stages_) {
+        ImGui::TableNextColumn();
+        const float width = ImGui::GetContentRegionAvail().x;
+        const float height = width * static_cast<float>(small.picture.height()) / kWidth;
+        ImGui::PushID(nameOf(small.stage));
+        // ImGui's textures are names in pointers; GL's first row is the lowest.
+        const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(small.picture.name()));
+        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
+        if (ImGui::ImageButton(id, {width, height}, {0.0f, 1.0f}, {1.0f, 0.0f})) clicked = small.stage;
+        ImGui::PopStyleVar();
+        ImGui::PopID();
+        if (small.stage == current)
+            ImGui::TextUnformatted(nameOf(small.stage));
+        else
+            ImGui::TextDisabled("%s", nameOf(small.stage));
+    }
+    ImGui::EndTable();
+    return clicked;
+}
+
+}  // namespace dioptre
