@@ -312,7 +312,8 @@ echo $((100 * (after - before) / (4 * $(getconf CLK_TCK))))
 
 TEST_F(ViewTest, ATrackerLeadsTheGaze) {
     // Half of the samples are broken; then none come, and focus stays.
-    const Outcome outcome = view(R"(
+    const Outcome outcome =
+        view(R"(
 xdotool mousemove --window "$window" 300 10
 for i in $(seq 40); do
     printf '%s.0,0.25,0.5,1\nbroken\n' "$i" > samples
@@ -321,7 +322,7 @@ done
 sleep 1
 xdotool key F12; there dioptre-0001.json
 )",
-                                 "scene.gltf --gaze-input stdin <>samples", false, "mkfifo samples\n");
+             "scene.gltf --technique mipmap --gaze-input stdin <>samples", false, "mkfifo samples\n");
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     EXPECT_NEAR(settingsIn("dioptre-0001.json").focus.focus.metres, 0.4, 0.01) << "of the square at the gaze";
 }
