@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "frame/frame_maker.hpp"
 #include "gl_fixture.hpp"
+#include "gl_objects.hpp"
 #include "pictures.hpp"
 
 namespace dioptre {
@@ -316,18 +317,9 @@ TEST_F(FrameMakerGLTest, ARefusedChangeChangesNothing) {
     }
 }
 
-/// Textures, buffers, framebuffers and programs that there are.
-int glObjects() {
-    int count = 0;
-    for (GLuint name = 1; name < 20000; ++name)
-        count += (glIsTexture(name) ? 1 : 0) + (glIsBuffer(name) ? 1 : 0) + (glIsFramebuffer(name) ? 1 : 0) +
-                 (glIsProgram(name) ? 1 : 0);
-    return count;
-}
-
 TEST_F(FrameMakerGLTest, TwoThousandFramesOfChangesLeaveNothingBehind) {
-    const int before = glObjects();
-    int first = 0;
+    const GlObjects before = glObjectsAlive();
+    GlObjects first{};
     for (int round = 0; round < 3; ++round) {
         const Scene scene = leftNearRightFar();
         Settings s = someSettings();
@@ -344,10 +336,10 @@ TEST_F(FrameMakerGLTest, TwoThousandFramesOfChangesLeaveNothingBehind) {
                 maker.make(at(time += 0.01));
             }
         }
-        if (round == 0) first = glObjects();
-        EXPECT_EQ(glObjects(), first) << "round " << round;
+        if (round == 0) first = glObjectsAlive();
+        EXPECT_EQ(glObjectsAlive(), first) << "round " << round;
     }
-    EXPECT_EQ(glObjects(), before);
+    EXPECT_EQ(glObjectsAlive(), before);
 }
 
 }  // namespace
