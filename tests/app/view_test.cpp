@@ -1,4 +1,4 @@
-// dioptre view in a window of a display in memory; skipped where xvfb-run, xdotool or openbox is missing.
+// dioptre view in a window of a display in memory; skipped where Xvfb, xdotool or openbox is missing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,15 +74,13 @@ wait $program; status=$?
 [ -z "$manager" ] || kill $manager
 exit $status
 )");
-        // Tests that run at once must not look for a free display from the same number on.
-        const std::string firstDisplay = std::to_string(100 + ::getpid() % 30000);
-        return runProgram("xvfb-run", {"-a", "-n", firstDisplay, "-s", "-screen 0 800x600x24", "sh", "steps.sh",
-                                       DIOPTRE_PROGRAM, DIOPTRE_DROP, DIOPTRE_GRAB});
+        return runProgram(DIOPTRE_WITH_DISPLAY,
+                          {"800x600", "sh", "steps.sh", DIOPTRE_PROGRAM, DIOPTRE_DROP, DIOPTRE_GRAB});
     }
 
     void SetUp() override {
-        if (runProgram("sh", {"-c", "command -v xvfb-run && command -v xdotool && command -v openbox"}).status != 0)
-            GTEST_SKIP() << "xvfb-run, xdotool or openbox is not there";
+        if (runProgram("sh", {"-c", "command -v Xvfb && command -v xdotool && command -v openbox"}).status != 0)
+            GTEST_SKIP() << "Xvfb, xdotool or openbox is not there";
     }
     std::vector<std::string> log() const { return linesOf(read("log.csv")); }
     Settings settingsIn(const std::string& name) const {
