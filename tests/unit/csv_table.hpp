@@ -87,6 +87,19 @@ inline CsvTable readCsvTable(const std::filesystem::path& file) {
     return table;
 }
 
+/// Of each line of a text, which may break lines within quotes; the last line ends, too.
+inline std::vector<std::size_t> cellsPerLine(std::string_view csv) {
+    std::vector<std::size_t> cells{1};
+    bool quoted = false;
+    for (const char c : csv) {
+        if (c == '"') quoted = !quoted;
+        if (c == ',' && !quoted) ++cells.back();
+        if (c == '\n' && !quoted) cells.push_back(1);
+    }
+    cells.pop_back();
+    return cells;
+}
+
 #ifdef DIOPTRE_TEST_DATA
 /// By name in tests/data/, e.g. "pupil.csv".
 inline CsvTable testTable(std::string_view name) {

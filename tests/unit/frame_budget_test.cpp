@@ -5,16 +5,19 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "csv_table.hpp"
 #include "frame/budget_rows.hpp"
 
 namespace dioptre {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
+using testing::SizeIs;
 
 const Plan kMipmap{TechniqueChoice::mipmap, 4, {}, {}};
 const Plan kAccumulate8{TechniqueChoice::accumulate, {}, 8, 4}, kAccumulate9{TechniqueChoice::accumulate, {}, 9, 4};
@@ -132,16 +135,9 @@ TEST(BudgetCsvTest, HasACellForEachColumn) {
     BudgetRun run = some();
     run.frames[0].governed.reset();
     const std::string csv = budgetCsv(run);
-    std::vector<std::size_t> cells{1};
-    bool quoted = false;
-    for (const char c : csv) {
-        if (c == '"') quoted = !quoted;
-        if (c == ',' && !quoted) ++cells.back();
-        if (c == '\n' && !quoted) cells.push_back(1);
-    }
-    cells.pop_back();
-    ASSERT_EQ(cells.size(), 6u);
-    for (const std::size_t count : cells) EXPECT_EQ(count, cells[0]);
+    const std::vector<std::size_t> cells = cellsPerLine(csv);
+    EXPECT_THAT(cells, SizeIs(6u));
+    EXPECT_THAT(cells, Each(cells[0]));
     EXPECT_THAT(csv, HasSubstr("\n0,0.000000,\"mipmap, msaa 4\",mipmap,,10.000,20,0,,,,,,"));
     EXPECT_THAT(csv,
                 HasSubstr("\n2,0.040000,\"accumulate, 8 samples, 4 sub-samples each\",accumulate,8,18.000,20,0,up,"));

@@ -9,6 +9,7 @@
 
 #include "core/color.hpp"
 #include "core/error.hpp"
+#include "csv_table.hpp"
 #include "frame/measure_content.hpp"
 #include "frame/measure_lens.hpp"
 #include "frame/measure_pictures.hpp"
@@ -18,9 +19,11 @@
 namespace dioptre {
 namespace {
 
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 TEST(MeasureParetoTest, KeepsWhatNothingBeats) {
     const TradePoint points[] = {{10, 0.5}, {20, 0.2}, {15, 0.6}, {30, 0.2}, {40, 0.1}, {5, 0.9}};
@@ -221,16 +224,9 @@ TEST(MeasureTableTest, BrokenFilesNameThemselves) {
 
 TEST(MeasureTableTest, CsvHasACellForEachColumn) {
     const std::string csv = measurementsCsv(some());
-    std::vector<std::size_t> cells{1};
-    bool quoted = false;
-    for (const char c : csv) {
-        if (c == '"') quoted = !quoted;
-        if (c == ',' && !quoted) ++cells.back();
-        if (c == '\n' && !quoted) cells.push_back(1);
-    }
-    cells.pop_back();
-    ASSERT_EQ(cells.size(), 4u);
-    for (const std::size_t count : cells) EXPECT_EQ(count, cells[0]);
+    const std::vector<std::size_t> cells = cellsPerLine(csv);
+    EXPECT_THAT(cells, SizeIs(4u));
+    EXPECT_THAT(cells, Each(cells[0]));
     EXPECT_THAT(csv, HasSubstr("\"room, \"\"small\"\"\",640,480,paper,near,"));
     EXPECT_THAT(csv, HasSubstr("\"geometry=3.0000;blur=1.5000\",\"reach: nothing is in front\""));
 }
