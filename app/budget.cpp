@@ -22,9 +22,7 @@ namespace {
 constexpr int kFrames = 300, kMostFrames = 1000000;
 constexpr int kCompared = 10;  // frames, where nobody says
 
-/// A seated viewer looks around, unless the gaze or the head are told what to do.
-void playSomething(FocusSettings& focus) {
-    if (!focus.headTrace.empty() || !focus.gazeTrace.empty() || focus.gaze != FocusSettings().gaze) return;
+void lookAround(FocusSettings& focus) {
     focus.headTrace = resource("assets/traces/seated.head.csv");
     focus.gazeTrace = resource("assets/traces/seated.gaze.csv");
 }
@@ -77,7 +75,7 @@ std::string resultText(const BudgetRun& run, const BudgetSummary& s) {
 
 void runBudget(const Command& command) {
     Settings settings = command.settings;
-    playSomething(settings.focus);
+    if (command.budget.looksAround) lookAround(settings.focus);
     BudgetRun run = runOf(command, settings);
     Scene scene = loadScene(command);
     const auto context = openHeadlessContext(command);

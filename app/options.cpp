@@ -226,7 +226,7 @@ void addExamples(CLI::App& app) {
         "  dioptre measure my.glb --out trade --size 640x480,1280x960\n"
         "  dioptre measure --quick --out quick");
     app.get_subcommand("budget")->footer(
-        "Without --head-trace and --gaze-trace a seated viewer looks around, assets/traces/seated.*.\n"
+        "Without --head-trace, --gaze-trace and --gaze a seated viewer looks around, assets/traces/seated.*.\n"
         "Examples:\n"
         "  dioptre budget my.glb --budget-ms 100 --out run\n"
         "  dioptre budget my.glb --hz 90 --head-trace head.csv --gaze-trace gaze.csv --out run\n"
@@ -284,7 +284,7 @@ void checkMeasure(Command& command, const std::vector<std::string>& sizes) {
     }
 }
 
-void checkBudget(Command& command) {
+void checkBudget(Command& command, const GivenSettings& given) {
     std::optional<double>& milliseconds = command.settings.render.budgetMs;
     BudgetOptions& options = command.budget;
     if (command.out.empty()) throw InputError("budget: --out FOLDER is missing");
@@ -293,6 +293,10 @@ void checkBudget(Command& command) {
     if (!options.hz) options.hz = 1000.0 / *milliseconds;
     if (command.settings.render.show.stage != ShowChoice::none)
         throw InputError("budget: --show draws a stage in place of the picture, a run is of pictures");
+    const FocusSettings& focus = command.settings.focus;
+    const bool gazeGiven = std::any_of(given.begin(), given.end(), [](const auto& g) { return g.first == "gaze"; });
+    options.looksAround =
+        focus.headTrace.empty() && focus.gazeTrace.empty() && !gazeGiven && focus.gaze == FocusSettings().gaze;
     const bool compares = options.referenceEvery != 0;
     if (options.failSsim && !compares)
         throw InputError("budget: --fail-ssim needs frames that are compared, --reference-every 0 compares none");
@@ -431,7 +435,7 @@ Command parseCommandLine(int argc, const char* const* argv) {
     if (result.which == Command::Which::compare && !result.out.empty()) requireImageName(result.out);
     if (result.which == Command::Which::exportScene) checkExport(result);
     if (result.which == Command::Which::measure) checkMeasure(result, sizes);
-    if (result.which == Command::Which::budget && !result.printConfig) checkBudget(result);
+    if (result.which == Command::Which::budget && !result.printConfig) checkBudget(result, given);
     return result;
 }
 

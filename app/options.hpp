@@ -24,6 +24,7 @@ struct BudgetOptions {
     std::optional<double> hz;           // moments a second; none: 1000 / budgetMs
     std::optional<int> referenceEvery;  // 0: never; none: about ten times in all
     int referenceSamples = 256;
+    bool looksAround = false;          // nobody said what gaze and head do
     std::optional<double> failMissed;  // percent of the frames, at most
     std::optional<double> failSsim;    // mean, at least
 };

@@ -31,8 +31,14 @@ inline GLuint greatestGlName() {
     return *std::max_element(next.begin(), next.end());
 }
 
+/// A program in use outlives its deletion, as long as the driver likes.
+inline bool programIsKept(GLuint name) {
+    GLint deleted = GL_FALSE;
+    if (glIsProgram(name)) glGetProgramiv(name, GL_DELETE_STATUS, &deleted);
+    return glIsProgram(name) && !deleted;
+}
+
 inline GlObjects glObjectsAlive() {
-    glUseProgram(0);  // a program in use outlives its deletion
     GlObjects count{};
     const GLuint last = greatestGlName();
     for (GLuint name = 1; name <= last; ++name) {
@@ -40,7 +46,7 @@ inline GlObjects glObjectsAlive() {
         count[1] += glIsBuffer(name);
         count[2] += glIsFramebuffer(name);
         count[3] += glIsVertexArray(name);
-        count[4] += glIsProgram(name);
+        count[4] += programIsKept(name);
         count[5] += glIsSampler(name);
     }
     return count;

@@ -1,5 +1,5 @@
-// Frames as no careful user makes them: heads and gazes that jump, trackers that fail, budgets, settings and scenes that
-// change. What must hold whatever happens: no GL error, finite pictures, both eyes by one plan, nothing left behind.
+// Frames as no careful user makes them: heads and gazes that jump, trackers that fail, traces, single pictures, other
+// plans' pictures, levels of detail that come late; budgets, settings and scenes that change. What must hold whatever happens: no GL error, finite pictures, both eyes by one plan, nothing left behind.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,31 +10,41 @@
 #include <string>
 #include <vector>
 
+#include "core/resources.hpp"
 #include "frame/frame_maker.hpp"
 #include "gl_objects.hpp"
+#include "scene/lod.hpp"
 
 namespace dioptre::test {
 
 class RandomFrames {
   public:
     /// The scenes outlive it.
-    RandomFrames(const std::vector<Scene>& scenes, unsigned seed) : scenes_(scenes), random_(seed) {}
+    RandomFrames(const std::vector<Scene>& scenes, unsigned seed) : scenes_(scenes), random_(seed) {
+        for (const Scene& scene : scenes) levels_.push_back(buildLevels(scene, {}));
+    }
 
     /// So many frames, each maker's about forty. Throws std::runtime_error at the first thing that does not hold.
     void run(int frames) {
         for (int done = 0; done < frames;) {
             const int part = std::min(frames - done, whole(20, 60));
-            const Settings settings = someSettings();
+            const auto which = static_cast<std::size_t>(whole(0, static_cast<int>(scenes_.size()) - 1));
+            Settings settings = someSettings();
             {
-                FrameMaker maker(scenes_[static_cast<std::size_t>(whole(0, static_cast<int>(scenes_.size()) - 1))],
-                                 settings);
-                for (int i = 0; i < part; ++i) frame(maker, settings, done + i);
+                FrameMaker maker(scenes_[which], settings);
+                const int levelsFrom = whole(0, part);
+                for (int i = 0; i < part; ++i) {
+                    if (i == levelsFrom && maker.mayUseLevels()) maker.addLevels(levels_[which]);
+                    if (chance(0.05)) maker.change(scenes_[which], settings = someSettings());
+                    frame(maker, settings, done + i);
+                }
             }
             done += part;
             const GlObjects left = glObjectsAlive();
-            if (before_ && left != *before_)
-                throw std::runtime_error(fmt::format("frame {}: {} textures, {} buffers were alive, {} and {} are",
-                                                     done, (*before_)[0], (*before_)[1], left[0], left[1]));
+            for (std::size_t i = 0; before_ && i < left.size(); ++i)
+                if (left[i] != (*before_)[i])
+                    throw std::runtime_error(fmt::format("frame {}: {} {} were alive, {} are", done, (*before_)[i],
+                                                         kGlObjectNames[i], left[i]));
             before_ = left;
         }
     }
@@ -65,6 +75,12 @@ class RandomFrames {
         s.focus.dynamics = static_cast<DynamicsChoice>(whole(0, 2));
         if (chance(0.2)) s.focus.focus = {FocusMode::metres, scale(0.1, 100.0)};
         if (chance(0.1)) s.focus.focus = {FocusMode::infinity, 0.0};
+        if (chance(0.3)) {
+            const char* const traces[] = {"seated", "walk", "reading", "sweep", "dropouts"};
+            const std::string trace = fmt::format("assets/traces/{}", traces[whole(0, 4)]);
+            s.focus.headTrace = resource(trace + ".head.csv");
+            s.focus.gazeTrace = resource(trace + ".gaze.csv");
+        }
         return s;
     }
 
@@ -82,8 +98,11 @@ class RandomFrames {
         if (chance(0.02)) head_ = {};
         FrameMaker::Input input;
         input.time = time_;
-        input.gaze = GazeSample{time_, gaze_, !chance(0.1)};
-        input.head = head_;
+        if (settings.focus.gazeTrace.empty()) {
+            input.gaze = GazeSample{time_, gaze_, !chance(0.1)};
+            input.head = head_;
+        }
+        input.alone = chance(0.03);
         input.mayLag = chance(0.5);
         input.budgetMilliseconds = budget_;
         input.refines = chance(0.5);
@@ -94,6 +113,9 @@ class RandomFrames {
         };
         if (const GLenum error = glGetError(); error != GL_NO_ERROR) fail(fmt::format("GL error {:#x}", error));
         if (!(report.milliseconds > 0.0)) fail("no time");
+        if (chance(0.02) &&
+            countNotFinite(maker.pictureBy({static_cast<TechniqueChoice>(whole(0, 3)), 0, 2, 2}, whole(0, 9))) != 0)
+            fail("another plan's picture that is not finite");
         if (number % 7 != 0) return;
         const Image picture = maker.composed();
         if (countNotFinite(picture) != 0) fail("a picture that is not finite");
@@ -108,6 +130,7 @@ class RandomFrames {
     }
 
     const std::vector<Scene>& scenes_;
+    std::vector<std::vector<BuiltLevel>> levels_;
     std::mt19937 random_;
     std::optional<GlObjects> before_;
     double time_ = 0.0, budget_ = 10.0;

@@ -24,14 +24,8 @@ BudgetFrame noteOf(const FrameReport& report) {
     frame.plan = report.plan;
     frame.milliseconds = report.milliseconds;
     if (const auto& d = report.decision)
-        frame.governed = BudgetFrame::Governed{d->change, d->why, d->foreseenMs, 1.0 - d->expectedError};
+        frame.governed = BudgetFrame::Governed{d->change, d->why, report.foreseenMs, 1.0 - d->expectedError};
     return frame;
-}
-
-/// The first frame alone pays for compiling shaders. At another moment: a view that stands still would be refined.
-void warm(FrameMaker& maker, FrameMaker::Input input, double later) {
-    input.time += later;
-    maker.make(input);
 }
 
 }  // namespace
@@ -43,12 +37,12 @@ void playBudget(FrameMaker& maker, double start, const std::function<bool()>& st
         FrameMaker::Input input;
         input.time = start + i / run.hz;
         input.budgetMilliseconds = run.budgetMs;
-        if (i == 0) warm(maker, input, 1.0 / run.hz);
+        if (i == 0) maker.warmUp(input, 1.0 / run.hz);
         BudgetFrame frame = noteOf(maker.make(input));
         // The last of each k, so that the first, which knows no price yet, is not the one that is judged.
         if (run.referenceEvery > 0 && (i + 1) % run.referenceEvery == 0) {
             const Image shown = maker.composed();
-            frame.ssim = ssim(maker.pictureBy(reference), shown);
+            frame.ssim = ssim(maker.pictureBy(reference, kMostSamples), shown);
             frame.picture = jpegDataUri(encodeJpeg(smaller(shown, kPictureWidth), kPictureQuality));
         }
         progress.update(static_cast<std::size_t>(i) + 1,

@@ -15,6 +15,7 @@ const Texture& EyePicture::drawAtPlansSize(const Plan& plan, const EyeFrame& fra
     view.height = sized(view.height);
     EyeFrame sizedFrame{frame.scene, view, frame.lens, frame.exposure, 0, frame.show, frame.log};
     apply(plan, sizedFrame);
+    sizedFrame.firstSample = frame.firstSample;
     sizedFrame.samplesNow = frame.samplesNow;
     return technique->draw(sizedFrame);
 }

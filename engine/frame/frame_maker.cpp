@@ -122,11 +122,13 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
       start_(startView(scene, settings.view)),
       preset_(loadLensPreset(lensFile(settings.lens.lens))),
       conditions_(conditionsOf(settings.lens)),
-      filter_(focusPreset(dynamicsName(settings.focus.dynamics))) {
+      filter_(focusPreset(dynamicsName(settings.focus.dynamics))),
+      eyes_(drawsBothEyes(settings.view) ? 2 : 1),
+      pictures_(eyes_.size()),
+      otherPictures_(eyes_.size()) {
     if (!settings.focus.gazeTrace.empty()) gazeTrace_ = readGazeTrace(settings.focus.gazeTrace);
     if (!settings.focus.headTrace.empty()) headTrace_ = readHeadTrace(settings.focus.headTrace);
     if (settings.focus.focus.mode == FocusMode::metres) checkFocus(preset_, settings.focus.focus.metres);
-    eyes_.resize(drawsBothEyes(settings.view) ? 2 : 1);
     if (const auto plan = planOf(settings.render))
         named_ = *plan;
     else
@@ -164,15 +166,12 @@ void FrameMaker::change(const Scene& scene, const Settings& settings) {
     const bool otherWay =
         plan.has_value() != planBefore.has_value() || (plan && plan->technique != planBefore->technique);
     if (otherWay || drawsBothEyes(settings.view) != drawsBothEyes(settings_.view)) {
-        eyes_.clear();
-        eyes_.resize(drawsBothEyes(settings.view) ? 2 : 1);
-        other_ = {};
-        lastShown_.reset();
-        lastEye_.reset();
+        eyes_.assign(drawsBothEyes(settings.view) ? 2 : 1, {});
+        pictures_ = PlannedPictures(eyes_.size());
+        otherPictures_ = PlannedPictures(eyes_.size());
         fresh_ = true;
     }
-    base_.reset();  // nothing goes on from what other settings drew
-    melting_ = 0.0;
+    pictures_.cut();  // nothing goes on from what other settings drew
     refining_ = false;
     named_ = plan.value_or(Plan());
     if (plan)
@@ -216,28 +215,27 @@ void FrameMaker::placeEyes(const View& head) {
     const Metres ipd(settings_.view.ipdMm * 1e-3);
     const auto screen = screenOf(settings_.view);
     if (eyes_.size() == 2) {
-        eyes_[0].view = eyeView(Eye::left, head, ipd, screen);
-        eyes_[1].view = eyeView(Eye::right, head, ipd, screen);
+        eyes_[0] = eyeView(Eye::left, head, ipd, screen);
+        eyes_[1] = eyeView(Eye::right, head, ipd, screen);
         return;
     }
     const Eye eye = settings_.view.eye == EyeChoice::left    ? Eye::left
                     : settings_.view.eye == EyeChoice::right ? Eye::right
                                                              : Eye::centre;
-    eyes_[0].view = eyeView(eye, head, ipd, screen);
+    eyes_[0] = eyeView(eye, head, ipd, screen);
 }
 
 std::optional<FrameMaker::GazeDepth> FrameMaker::gazeDepth(const View& centre, bool mayLag) {
-    const std::vector<View> views = eyeViews();
     const Radians error(glm::radians(settings_.focus.gazeErrorDeg));
     // While the gaze is lost, the middle is watched: focus drifts there in the end.
     const GazeSample& gaze = report_.gaze;
     const glm::dvec2 place = gaze.valid ? gaze.position : glm::dvec2(0.5);
-    if (!mayLag) return GazeDepth{gaze, probe_.vergence(scene_, views, centre, place, error, report_.passes)};
+    if (!mayLag) return GazeDepth{gaze, probe_.vergence(scene_, eyes_, centre, place, error, report_.passes)};
     // The last reading, once it is finished; the next one starts only then, so that none is dropped unread.
     std::optional<GazeDepth> finished;
     if (const auto reading = probe_.finish(false)) finished = GazeDepth{awaited_, reading->vergence};
     if (!probe_.running()) {
-        probe_.start(scene_, views, centre, place, error, report_.passes);
+        probe_.start(scene_, eyes_, centre, place, error, report_.passes);
         awaited_ = gaze;
     }
     return finished;
@@ -293,22 +291,27 @@ const FrameReport& FrameMaker::make(const Input& input) {
     if (planner_) {
         if (first) input.alone ? lookAhead() : prepare();
         // A picture drawn again, with levels of detail: by the plan that asked for them
-        if (!again) report_.decision = decide(input);
-        drew = drawPlanned(*report_.decision, step);
-        planner_->look(eyes_.front().drawing.technique(), eyes_.front().view, report_.passes);
+        const bool unseen = unseenNow(input);
+        if (!again) report_.decision = decide(input, unseen);
+        const auto drawn = pictures_.draw(*report_.decision, eyeFrames(eyes_, report_.passes), step, unseen);
+        report_.plan = drawn.plan;
+        report_.foreseenMs = drawn.foreseenMs;
+        drew = drawn.as;
+        planner_->look(pictures_.technique(), eyes_.front(), report_.passes);
     } else {
         drawNamed(input);
     }
-    composed_ = &compositor_.compose(composition(*eyes_.front().shown, *eyes_.back().shown), report_.passes);
+    composed_ = &compositor_.compose(composition(pictures_), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;
     if (planner_) planner_->finished(report_.milliseconds, first ? FramePlanner::Drew::somethingElse : drew);
     return report_;
 }
 
-Composition FrameMaker::composition(const Texture& left, const Texture& right) const {
-    return {left, right, eyes_.size() == 1 ? DisplayChoice::mono : settings_.view.display, settings_.view.swapEyes,
-            settings_.render.tonemap};
+Composition FrameMaker::composition(const PlannedPictures& pictures) const {
+    const bool mono = eyes_.size() == 1;
+    return {pictures.shown(0), pictures.shown(eyes_.size() - 1), mono ? DisplayChoice::mono : settings_.view.display,
+            settings_.view.swapEyes, settings_.render.tonemap};
 }
 
 Image FrameMaker::readPicture(const Texture& picture) {
@@ -319,8 +322,8 @@ Image FrameMaker::readPicture(const Texture& picture) {
 
 Image FrameMaker::composed() const {
     Image image = readPicture(*composed_);
-    for (const DrawnEye& eye : eyes_) {
-        const std::vector<float> radiance = readTexture(*eye.shown, GL_RGB, 3);
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        const std::vector<float> radiance = readTexture(pictures_.shown(i), GL_RGB, 3);
         const auto cut = std::count_if(radiance.begin(), radiance.end(),
                                        [](float v) { return static_cast<double>(v) >= kMostRadiance; });
         if (cut > 0) reportCut(fmt::format("{} values of the picture", cut));
@@ -338,27 +341,11 @@ void FrameMaker::present(const Placement& area) {
 }
 
 double FrameMaker::progress() const {
-    double least = 1.0;
-    if (!planner_)
-        for (const DrawnEye& eye : eyes_) least = std::min(least, eye.drawing.technique().progress());
-    if (!report_.decision || !report_.decision->refinement) return least;
+    if (!planner_) return pictures_.progress();
+    if (!report_.decision || !report_.decision->refinement) return 1.0;
     // More than the reference's own number of samples is not waited for.
     const double enough = defaultSamples(TechniqueChoice::reference);
-    if (report_.decision->fade || !base_) return 0.0;
-    for (const DrawnEye& eye : eyes_) least = std::min(least, eye.drawing.refinedSamples() / enough);
-    return least;
-}
-
-std::vector<View> FrameMaker::eyeViews() const {
-    std::vector<View> views;
-    for (const DrawnEye& eye : eyes_) views.push_back(eye.view);
-    return views;
-}
-
-std::size_t FrameMaker::techniqueBytes() const {
-    std::size_t sum = 0;
-    for (const DrawnEye& eye : eyes_) sum += eye.drawing.bytes();
-    return sum;
+    return std::min(1.0, pictures_.refinedSamples() / enough);
 }
 
 }  // namespace dioptre

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,9 @@
 #include "core/settings.hpp"
 #include "focus/focus_filter.hpp"
 #include "focus/traces.hpp"
-#include "frame/eye_picture.hpp"
 #include "frame/frame_planner.hpp"
 #include "frame/gaze_probe.hpp"
+#include "frame/planned_pictures.hpp"
 #include "gl/pass.hpp"
 #include "optics/lens_preset.hpp"
 #include "present/compositor.hpp"
@@ -32,6 +33,7 @@ struct FrameReport {
     Plan plan;                         // a refined view's: the reference with the samples that it has
     std::optional<Decision> decision;  // of the governor; none where the settings name a technique
     double budgetMs = 0.0;             // that it kept to
+    double foreseenMs = 0.0;           // by the governor, of what was drawn
     double milliseconds = 0.0;         // of the finished frame
     PassLog passes;
 };
@@ -70,6 +72,12 @@ class FrameMaker {
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.
     const FrameReport& make(const Input& input);
+    /// What the first frame pays alone, for a sequence that begins with that input: at the moment of the frame after it,
+    /// or a view that stands still would be refined. `step`: seconds between frames.
+    void warmUp(Input first, double step) {
+        first.time += step;
+        make(first);
+    }
 
     /// Whether levels of detail may be drawn.
     bool mayUseLevels() const { return planner_ || usesLevels(named_.technique); }
@@ -88,26 +96,20 @@ class FrameMaker {
     /// How much of what was asked for the last frame has, 0..1; below 1 while a still view refines.
     double progress() const;
     /// What the last frame shows as another plan draws it, composed, read back, linear. The frame stays as it is.
-    Image pictureBy(const Plan& plan);
+    /// `firstSample`: where its points of the lens begin. What frames are compared with must not share theirs: from
+    /// kMostSamples on.
+    Image pictureBy(const Plan& plan, int firstSample = 0);
 
-    const View& startingView() const { return start_; }  // of the last frame's time
-    const View& head() const { return head_; }           // of the last frame, midway between the eyes
-    std::vector<View> eyeViews() const;                  // of the last frame: one, or left and right
+    const View& startingView() const { return start_; }          // of the last frame's time
+    const View& head() const { return head_; }                   // of the last frame, midway between the eyes
+    const std::vector<View>& eyeViews() const { return eyes_; }  // of the last frame: one, or left and right
     const FrameReport& report() const { return report_; }
     const Texture& composedTexture() const { return *composed_; }  // the last frame
     const FocusFilter& focusFilter() const { return filter_; }
-    std::size_t techniqueBytes() const;
+    std::size_t techniqueBytes() const { return pictures_.bytes(); }
     const GpuScene& scene() const { return scene_; }
 
   private:
-    struct DrawnEye {
-        View view;
-        EyePicture drawing;
-        const Texture* picture = nullptr;  // by the plan
-        const Texture* refined = nullptr;  // in its place
-        const Texture* shown = nullptr;
-    };
-
     /// Warns, once.
     void reportCut(const std::string& what) const;
     void moveScene(double time);
@@ -121,18 +123,14 @@ class FrameMaker {
         std::optional<Dioptres> vergence;
     };
     std::optional<GazeDepth> gazeDepth(const View& centre, bool mayLag);
-    Decision decide(const Input& input);
-    bool unseen(const Input& input);
-    EyeFrame eyeFrame(const DrawnEye& eye);
+    Decision decide(const Input& input, bool unseen);
+    bool unseenNow(const Input& input);
+    std::vector<EyeFrame> eyeFrames(std::span<const View> views, PassLog& log) const;
     void prepare();
     void lookAhead();
-    FramePlanner::Drew drawPlanned(Decision decision, double step);
-    FramePlanner::Drew drawEyes(const Decision& decision);
-    FramePlanner::Drew refineEyes(const Decision& decision);
-    bool calm() const;
     void drawNamed(const Input& input);
     static Image readPicture(const Texture& picture);
-    Composition composition(const Texture& left, const Texture& right) const;
+    Composition composition(const PlannedPictures& pictures) const;
 
     Settings settings_;
     GpuScene scene_;
@@ -147,26 +145,20 @@ class FrameMaker {
     FocusFilter filter_;
     GazeSample awaited_;  // the gaze whose depth is being read
     std::optional<double> lastTime_;
-    bool fresh_ = true;           // nothing was drawn yet by these eyes and this way to draw
-    std::vector<DrawnEye> eyes_;  // one, or left and right
-    Plan named_;                  // by the settings, where there is no planner
+    bool fresh_ = true;       // nothing was drawn yet by these eyes and this way to draw
+    std::vector<View> eyes_;  // one, or left and right
+    PlannedPictures pictures_;
+    Plan named_;  // by the settings, where there is no planner
     std::optional<FramePlanner> planner_;
     double brightest_ = 0.0;        // radiance that a material emits, times exposure
-    std::optional<Plan> base_;      // of the eyes' pictures; none: they are faded
     std::optional<double> lostAt_;  // since when the gaze is not valid
-    bool unseen_ = false;
-    std::optional<Plan> lastShown_;
-    std::optional<View> lastEye_;
-    std::uint64_t lastVersion_ = 0;  // of the scene
-    double melting_ = 0.0;           // seconds, while a change of method melts out of what was shown before
-    int samplesNow_ = 1;             // of a named technique that refines, in a frame
-    bool refining_ = false;          // the last frame drew so many
+    int samplesNow_ = 1;            // of a named technique that refines, in a frame
+    bool refining_ = false;         // the last frame drew so many
     Compositor compositor_;
     const Texture* composed_ = nullptr;
-    struct {
-        std::vector<EyePicture> eyes;
-        Compositor compositor;
-    } other_;  // pictureBy()
+    // pictureBy()
+    PlannedPictures otherPictures_;
+    Compositor otherCompositor_;
     FrameReport report_;
     mutable bool cutReported_ = false;
 };

@@ -15,13 +15,7 @@ std::vector<FrameReport> renderSequence(FrameMaker& maker, const SequenceRequest
         FrameMaker::Input input;
         input.time = request.start + i / request.fps;
         input.budgetMilliseconds = request.budgetMs;
-        // The first frame alone pays for compiling shaders: another is drawn before it, of another moment, so that it does
-        // not count as a view that stands still.
-        if (i == 0) {
-            FrameMaker::Input warming = input;
-            warming.time += 1.0 / request.fps;
-            maker.make(warming);
-        }
+        if (i == 0) maker.warmUp(input, 1.0 / request.fps);
         shown.push_back(maker.make(input));
         writeImage(request.folder / fmt::format("frame_{:04d}.png", i), maker.composed());
         progress.update(static_cast<std::size_t>(i) + 1);

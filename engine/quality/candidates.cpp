@@ -82,6 +82,12 @@ Plan Candidates::adequate() const {
     return cheapest ? cheapest->plan : this->cheapest().plan;
 }
 
+double Candidates::chanceToFit(const Plan& method, double limit) const {
+    const Plan least = withSamples(method, kLeastSamples);
+    const double deviation = std::max(prices_.uncertainty(least, view_), 1e-6);
+    return 0.5 * std::erfc(std::log(prices_.price(least, view_) / limit) / (deviation * std::sqrt(2.0)));
+}
+
 double Candidates::unsure(const Plan& method) const {
     return std::exp(prices_.uncertainty(withSamples(method, kLeastSamples), view_));
 }

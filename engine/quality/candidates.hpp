@@ -44,6 +44,8 @@ class Candidates {
     /// The cheapest at full size that gives the view what it requires: a blur where there is one.
     Plan adequate() const;
 
+    /// That the method, with its least samples, takes at most `limit` ms; 0..1.
+    double chanceToFit(const Plan& method, double limit) const;
     /// exp(standard deviation) of the price.
     double unsure(const Plan& method) const;
     /// From so many samples on the reference is as close as the plan.

@@ -165,10 +165,12 @@ std::optional<PricedPlan> Governor::tryable(const Plan& method, const Candidates
     return candidates.within(method, limit, std::pow(candidates.unsure(method), -hope));
 }
 
-/// What is better than the current plan by enough, and for how long; the same one as long as it is.
+/// What is better than the current plan by enough, and for how long; the same one as long as it is. Of several the one
+/// after whose trial the least error is to be expected: where it does not fit the current plan goes on.
 std::optional<PricedPlan> Governor::candidate(const Candidates& candidates, const Situation& s) {
-    const double worth = kWorthIt * candidates.priced(*current_).error;
+    const double now = candidates.priced(*current_).error, worth = kWorthIt * now;
     std::optional<PricedPlan> best;
+    double bestExpected = now;
     for (const Plan& method : candidates.methods()) {
         if (method == methodOf(*current_)) continue;
         const auto found = tryable(method, candidates, s);
@@ -177,7 +179,11 @@ std::optional<PricedPlan> Governor::candidate(const Candidates& candidates, cons
             ++candidate_.frames;
             return found;
         }
-        if (!best || found->error < best->error) best = found;
+        const double fits = candidates.chanceToFit(method, kKept * s.budgetMs);
+        const double expected = fits * found->error + (1.0 - fits) * now;
+        if (best && expected >= bestExpected) continue;
+        best = found;
+        bestExpected = expected;
     }
     candidate_ = best ? decltype(candidate_){methodOf(best->plan), 1} : decltype(candidate_){};
     return best;
@@ -199,7 +205,9 @@ void Governor::enter(const PricedPlan& to, const Candidates& candidates, const S
     current_ = to.plan;
     // Fewer samples at first where that lets both be drawn
     const auto both = candidates.within(methodOf(to.plan), target - from.milliseconds);
-    fade_.running = both && both->error <= from.error && step_ < kFadeSeconds;
+    // One technique has one set of buffers: two of its sizes in turn would make them anew for each frame of a fade.
+    fade_.running =
+        both && both->error <= from.error && step_ < kFadeSeconds && from.plan.technique != to.plan.technique;
     if (!fade_.running) return;
     fade_.from = from.plan;
     fade_.began = clock_ - step_;
@@ -258,7 +266,7 @@ Decision Governor::decision(const Candidates& candidates, const Situation& s, Mo
         if (const auto now = candidates.within(reference, kTarget * s.budgetMs, 1.0, 1)) {
             refined_ = now->plan;
             d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, *now->plan.samples,
-                            candidates.samplesToReach(*current_)};
+                            now->milliseconds, candidates.samplesToReach(*current_)};
         }
     }
     return d;
@@ -287,6 +295,14 @@ Decision Governor::decide(const Situation& situation) {
         sharp_ = !s.requirements.blur;
     }
 
+    // Then by what the first frame took: the best that fits even if it is as dear as it is unsure
+    const bool begins = !first && !began_ && s.lastMs && !s.lastRefined;
+    if (begins) {
+        began_ = true;
+        const auto safe = candidates.safest(kTarget * s.budgetMs);
+        if (safe && safe->error < candidates.priced(*current_).error) current_ = safe->plan;
+    }
+
     Move move = adapt(candidates, s);
     if (const Move down = goDown(candidates, s, missed && !rested_); down.change != PlanChange::none) move = down;
     if (move.change != PlanChange::none || s.unseen) {
@@ -298,6 +314,7 @@ Decision Governor::decide(const Situation& situation) {
     }
     if (fade_.running && (missed || !fadeFits(candidates, s, *current_))) fade_.running = false;
     if (first) move = {PlanChange::none, "the first frame"};
+    if (begins && move.change == PlanChange::none) move.why = "what a frame takes is known";
     drawnView_ = s.view;
     return decision(candidates, s, move);
 }

@@ -1,5 +1,7 @@
 // Chooses, each frame, the most accurate plan that the budget affords. Arithmetic on the times it is given: no clock.
 //
+// - It begins with the cheapest plan that gives the view what it requires, since the table may be another machine's. What
+//   that took says what else is sure to fit: with the best of it it goes on.
 // - It aims at 90 % of the budget: what is left is for what varies from frame to frame.
 // - The number of samples follows the price: down at once, up by at most a tenth, or one, a frame. It goes down after any missed
 //   frame, too.
@@ -8,7 +10,7 @@
 // - It goes up only to what is foreseen to fit for ten frames, at most once a second, and to a method that had to be left
 //   again only after a wait that doubles each time, until load or view are others. What was never drawn may turn out
 //   cheaper than its price: now and then, ever more seldom, it is tried.
-// - Up it cross-fades where both plans fit together; down it does not.
+// - Up to another technique it cross-fades where both plans fit together; down it does not.
 // - While nobody sees (saccade, blink) the cheapest plan that has the blur is drawn; then the one from before goes on.
 //   That is no change of method: nothing is tried, nothing counted.
 // - Where nothing is blurred pinholes are enough, after ten frames of it; the plan from before goes on with the blur.
@@ -58,14 +60,15 @@ struct Decision {
     /// Instead of drawing `plan` again, a view where nothing moves may go on with the reference.
     struct Refinement {
         Plan plan;
-        int samplesNow = 0;  // that fit into this frame
-        int shownFrom = 0;   // samples: with fewer the picture of `plan` is closer
+        int samplesNow = 0;       // that fit into this frame
+        double foreseenMs = 0.0;  // of these
+        int shownFrom = 0;        // samples: with fewer the picture of `plan` is closer
     };
     Plan plan;
     std::optional<Fade> fade;
     std::optional<Refinement> refinement;
     PlanChange change = PlanChange::none;
-    double foreseenMs = 0.0;     // of all that is to be drawn
+    double foreseenMs = 0.0;     // of `plan`, and of what it fades from
     double expectedError = 1.0;  // 1 - SSIM
     std::string_view why;        // one line
 };
@@ -114,6 +117,7 @@ class Governor {
     TradeTable table_;
     PriceModel prices_;
     std::optional<Plan> current_;
+    bool began_ = false;             // by what the first frame took
     std::optional<Plan> suspended_;  // goes on when something is blurred again
     int sharpFrames_ = 0;            // in succession
     bool sharp_ = false;             // the current plan is for a view without blur

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gl/context.hpp"
+#include "moving_scenes.hpp"
 #include "random_frames.hpp"
 #include "scene/builtin.hpp"
 #include "test_scenes.hpp"
@@ -37,6 +38,7 @@ int main(int argc, char** argv) try {
     b.wall(4.0, b.unlit({0.5f, 0.5f, 0.5f})).sphere({0.0, 0.0, -0.6}, 0.1, b.unlit({5.0f, 0.2f, 0.1f}));
     scenes.push_back(b.camera().scene());
     scenes.push_back({});
+    scenes.push_back(test::load(test::bendingBarGltf()));
     test::RandomFrames random(scenes, seed);
     constexpr int kSteps = 20, kWarmUp = 5;
     double warm = 0.0, last = 0.0;

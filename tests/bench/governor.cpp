@@ -69,11 +69,7 @@ Run play(const Stage& stage, const std::optional<Plan>& plan, double budget, std
         FrameMaker::Input input;
         input.time = i * budget * 1e-3;
         input.budgetMilliseconds = budget;
-        if (i == 0) {
-            FrameMaker::Input warming = input;
-            warming.time += budget * 1e-3;
-            maker.make(warming);
-        }
+        if (i == 0) maker.warmUp(input, budget * 1e-3);
         const FrameReport& report = maker.make(input);
         const std::string method = planText(methodOf(report.plan));
         if (run.methods.empty() || run.methods.back() != method) run.methods.push_back(method);
@@ -83,7 +79,8 @@ Run play(const Stage& stage, const std::optional<Plan>& plan, double budget, std
         if ((i - kSettling) % kCompared != 0) continue;
         const auto at = static_cast<std::size_t>((i - kSettling) / kCompared);
         if (at == references.size())
-            references.push_back(maker.pictureBy({TechniqueChoice::reference, {}, kReferenceSamples, {}}));
+            references.push_back(
+                maker.pictureBy({TechniqueChoice::reference, {}, kReferenceSamples, {}}, kMostSamples));
         ssimSum += ssim(maker.composed(), references[at]);
         ++compared;
     }
@@ -190,7 +187,7 @@ void switches() {
         input.head = Pose{{0.0, 0.0, -0.001 * i}, {1.0, 0.0, 0.0, 0.0}};
         const FrameReport& report = maker.make(input);
         const Image now = maker.composed();
-        const Image reference = maker.pictureBy({TechniqueChoice::reference, {}, 128, {}});
+        const Image reference = maker.pictureBy({TechniqueChoice::reference, {}, kReferenceSamples, {}}, kMostSamples);
         Frame frame{planText(methodOf(report.plan)), 0.0, false};
         if (i > 0) {
             frame.dip = ssim(reference, referenceBefore) - ssim(now, before);

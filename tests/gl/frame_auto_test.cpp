@@ -7,6 +7,7 @@
 #include "frame/vergence_sampler.hpp"
 #include "gl_fixture.hpp"
 #include "metrics/metrics.hpp"
+#include "moving_scenes.hpp"
 #include "pictures.hpp"
 #include "random_frames.hpp"
 #include "test_scenes.hpp"
@@ -196,6 +197,7 @@ TEST_F(AutoGLTest, RandomFramesLeaveNothingBehind) {
     std::vector<Scene> scenes;
     scenes.push_back(someScene());
     scenes.push_back({});
+    scenes.push_back(load(bendingBarGltf()));
     EXPECT_NO_THROW(RandomFrames(scenes, 7).run(500));
 }
 
