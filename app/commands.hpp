@@ -10,8 +10,8 @@
 
 namespace dioptre {
 
-/// The scene that the command line names, a file or builtin:NAME, else the studio; its warnings go to the log. `progress`
-/// is told, now and then, the share that is done, 0..1.
+/// The scene that the command line names, a file or builtin:NAME, else the studio; its warnings go to the log.
+/// `progress` is told, now and then, the share that is done, 0..1.
 Scene loadScene(const Command& command, const std::function<void(double)>& progress = {});
 
 /// What a single picture may take where nobody says.

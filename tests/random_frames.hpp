@@ -1,5 +1,6 @@
 // Frames as no careful user makes them: heads and gazes that jump, trackers that fail, traces, single pictures, other
-// plans' pictures, levels of detail that come late; budgets, settings and scenes that change. What must hold whatever happens: no GL error, finite pictures, both eyes by one plan, nothing left behind.
+// plans' pictures, levels of detail that come late; budgets, settings and scenes that change. What must hold whatever
+// happens: no GL error, finite pictures, both eyes by one plan, nothing left behind.
 #pragma once
 
 #include <fmt/format.h>

@@ -83,8 +83,13 @@ void SplitView::draw(const FrameMaker& maker, const Settings& settings, double b
         std::clamp(budgetMilliseconds / std::max(nowMilliseconds() - start, 1e-3), 1.0 / kMostChange, kMostChange);
     samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, plan.samples.value_or(1));
     const DisplayChoice display = views.size() == 1 ? DisplayChoice::mono : settings.view.display;
-    picture_ = &compositor_.compose(
-        {*pictures.front(), *pictures.back(), display, settings.view.swapEyes, render.tonemap}, unread);
+    picture_ = &compositor_.compose({*pictures.front(),
+                                     *pictures.back(),
+                                     {views.front().width, views.front().height},
+                                     display,
+                                     settings.view.swapEyes,
+                                     render.tonemap},
+                                    unread);
 }
 
 double SplitView::progress() const {

@@ -6,8 +6,8 @@
 //   not valid, no depth, not finite  -> held: the target stays, a movement under way goes on
 //   gaze faster than a saccade       -> held; what was waiting is dropped
 //   within the dead zone             -> held; what was waiting is dropped (this is what stops jitter at a depth edge)
-//   else                             -> it waits `latency` (or `confirm`, see there) and, if no later sample contradicts,
-//                                       becomes the target; after a saccade the wait counts from the landing
+//   else                             -> it waits `latency` (or `confirm`, see there) and, if no later sample
+//                                       contradicts, becomes the target; after a saccade the wait counts from the landing
 #pragma once
 
 #include <deque>

@@ -5,7 +5,7 @@
 
 namespace dioptre {
 
-const Texture& EyePicture::drawAtPlansSize(const Plan& plan, const EyeFrame& frame) {
+const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
     std::unique_ptr<Technique>& technique = techniques_[static_cast<std::size_t>(plan.technique)];
     if (!technique) technique = makeTechnique(plan.technique);
     drawnBy_ = technique.get();
@@ -30,19 +30,9 @@ void EyePicture::stretch(const Texture& picture, double weight, Canvas& onto, co
         const Framebuffer::Attachment color[] = {{&onto.picture}};
         onto.target = Framebuffer(color, nullptr, "stretched picture");
     }
-    if (!linear_) {
-        stretchPass_ = FullscreenPass("common/stretch.frag.glsl");
-        GLuint name = 0;
-        glCreateSamplers(1, &name);
-        linear_ = GlSampler(name);
-        glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glSamplerParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    }
+    if (!stretchPass_.program()) stretchPass_ = FullscreenPass("common/stretch.frag.glsl");
     onto.target.bind();
     picture.bind(0);
-    glBindSampler(0, linear_.name());
     stretchPass_.program().set("size", glm::vec2(width, height));
     if (weight < 1.0) {
         glEnable(GL_BLEND);
@@ -51,19 +41,11 @@ void EyePicture::stretch(const Texture& picture, double weight, Canvas& onto, co
     }
     stretchPass_.draw();
     glDisable(GL_BLEND);
-    glBindSampler(0, 0);
-}
-
-const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
-    const Texture& picture = drawAtPlansSize(plan, frame);
-    if (picture.width() == frame.view.width && picture.height() == frame.view.height) return picture;
-    stretch(picture, 1.0, stretched_, frame);
-    return stretched_.picture;
 }
 
 const Texture& EyePicture::fade(const Plan& from, const Plan& to, double weight, const EyeFrame& frame) {
-    stretch(drawAtPlansSize(from, frame), 1.0, stretched_, frame);
-    stretch(drawAtPlansSize(to, frame), weight, stretched_, frame);
+    stretch(draw(from, frame), 1.0, stretched_, frame);
+    stretch(draw(to, frame), weight, stretched_, frame);
     return stretched_.picture;
 }
 

@@ -1,5 +1,5 @@
-// One eye's picture as plans say: techniques made when first needed, smaller pictures enlarged, two plans faded, a still
-// view refined.
+// One eye's picture as plans say: techniques made when first needed, smaller pictures enlarged, two plans faded, a
+// still view refined.
 #pragma once
 
 #include <array>
@@ -14,9 +14,11 @@ namespace dioptre {
 
 class EyePicture {
   public:
-    /// By one plan; of frame.view's size, valid until the next call of the same kind.
+    // All are valid until the next call of the same kind.
+
+    /// By one plan, at its size: what shows it stretches it to that of frame.view.
     const Texture& draw(const Plan& plan, const EyeFrame& frame);
-    /// `weight`, 0..1, of `to` over `from`.
+    /// `weight`, 0..1, of `to` over `from`; of frame.view's size, as all that follow.
     const Texture& fade(const Plan& from, const Plan& to, double weight, const EyeFrame& frame);
     /// Goes on with `plan` by `samplesNow` samples, in buffers of its own: what draw() gave stays as it is.
     const Texture& refine(const Plan& plan, int samplesNow, const EyeFrame& frame);
@@ -41,7 +43,6 @@ class EyePicture {
         Texture picture;
         Framebuffer target;
     };
-    const Texture& drawAtPlansSize(const Plan& plan, const EyeFrame& frame);
     void stretch(const Texture& picture, double weight, Canvas& onto, const EyeFrame& frame);
 
     std::array<std::unique_ptr<Technique>, std::size(kTechniques)> techniques_;
@@ -49,7 +50,6 @@ class EyePicture {
     const Technique* drawnBy_ = nullptr;
     int refinedSamples_ = 0;
     FullscreenPass stretchPass_;
-    GlSampler linear_;
     Canvas stretched_, remembered_;
 };
 

@@ -310,8 +310,12 @@ const FrameReport& FrameMaker::make(const Input& input) {
 
 Composition FrameMaker::composition(const PlannedPictures& pictures) const {
     const bool mono = eyes_.size() == 1;
-    return {pictures.shown(0), pictures.shown(eyes_.size() - 1), mono ? DisplayChoice::mono : settings_.view.display,
-            settings_.view.swapEyes, settings_.render.tonemap};
+    return {pictures.shown(0),
+            pictures.shown(eyes_.size() - 1),
+            {eyes_.front().width, eyes_.front().height},
+            mono ? DisplayChoice::mono : settings_.view.display,
+            settings_.view.swapEyes,
+            settings_.render.tonemap};
 }
 
 Image FrameMaker::readPicture(const Texture& picture) {

@@ -62,8 +62,8 @@ class FrameMaker {
         bool mayLag = false;
         // Of the frame, all eyes; 0: the cheapest there is.
         double budgetMilliseconds = 0.0;
-        // A named technique that averages samples draws as many as fit into the budget and goes on with them in the next
-        // frames while the view stands still. What the governor chooses does so always.
+        // A named technique that averages samples draws as many as fit into the budget and goes on with them in the
+        // next frames while the view stands still. What the governor chooses does so always.
         bool refines = false;
         // No frame follows: there is nothing to learn for.
         bool alone = false;
@@ -72,8 +72,8 @@ class FrameMaker {
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
     /// with the focus settled.
     const FrameReport& make(const Input& input);
-    /// What the first frame pays alone, for a sequence that begins with that input: at the moment of the frame after it,
-    /// or a view that stands still would be refined. `step`: seconds between frames.
+    /// What the first frame pays alone, for a sequence that begins with that input: at the moment of the frame after
+    /// it, or a view that stands still would be refined. `step`: seconds between frames.
     void warmUp(Input first, double step) {
         first.time += step;
         make(first);

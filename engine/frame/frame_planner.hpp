@@ -1,4 +1,5 @@
-// What the governor needs of a frame: what the view requires, its class, whether it stands still, what the last frame took.
+// What the governor needs of a frame: what the view requires, its class, whether it stands still, what the last frame
+// took.
 #pragma once
 
 #include <optional>

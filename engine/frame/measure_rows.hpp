@@ -130,8 +130,8 @@ std::string measurementsCsv(const Measurements& all);
 
 /// The table for the governor, config/trade/<renderer>.json, which engine/quality/trade_table.hpp reads, schema 2:
 ///   schema, renderer, version, commit, cpu, date
-///   views[]   key, triangles (that a pinhole draws), width, height, mean_coc_px, nearest_coc_px, farthest_coc_px (as in
-///             trade.json), behind_share (of the visible pixels: what lies behind focus)
+///   views[]   key, triangles (that a pinhole draws), width, height, mean_coc_px, nearest_coc_px, farthest_coc_px (as
+///             in trade.json), behind_share (of the visible pixels: what lies behind focus)
 ///   plans[]   technique, dials, ms, ms_over_pinhole (to the cheapest pinhole of the same view), psnr_db, ssim, flip:
 ///             means over everything; entries[] the same for each view, by its key
 ///             psnr_db: equal pictures count as 100

@@ -1,5 +1,5 @@
-// All eyes' pictures as the governor decides or the settings name: by the same plan in every frame. A change of method that
-// the governor does not cross-fade melts out of what was shown before; a still view is refined.
+// All eyes' pictures as the governor decides or the settings name: by the same plan in every frame. A change of method
+// that the governor does not cross-fade melts out of what was shown before; a still view is refined.
 #pragma once
 
 #include <cstdint>

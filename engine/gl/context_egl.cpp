@@ -11,8 +11,8 @@ namespace dioptre {
 
 namespace {
 
-/// Surfaceless: the first device EGL offers (a GPU where there is one) that gives such a context, else Mesa's surfaceless
-/// platform.
+/// Surfaceless: the first device EGL offers (a GPU where there is one) that gives such a context, else Mesa's
+/// surfaceless platform.
 class EglContext final : public Context {
   public:
     EglContext() {

@@ -42,14 +42,20 @@ std::string defineOf(DisplayChoice display) {
     return "MONO";
 }
 
+bool sameSize(const Composition& c) {
+    return c.left.width() == c.eye.width && c.left.height() == c.eye.height;
+}
+
 }  // namespace
 
 const FullscreenPass& Compositor::passFor(const Composition& composition, bool encode) {
-    FullscreenPass& pass = passes_[{composition.display, composition.tonemap, encode}];
+    const bool smaller = !sameSize(composition);
+    FullscreenPass& pass = passes_[{composition.display, composition.tonemap, encode, smaller}];
     if (pass.program()) return pass;
     std::vector<std::string> defines = {defineOf(composition.display)};
     if (composition.tonemap == ToneMapChoice::neutral) defines.emplace_back("NEUTRAL");
     if (encode) defines.emplace_back("ENCODE");
+    if (smaller) defines.emplace_back("SMALLER");
     pass = FullscreenPass("present/compose.frag.glsl", defines);
     return pass;
 }
@@ -62,12 +68,13 @@ void Compositor::draw(const Composition& composition, const Placement& place, bo
     const Program& program = pass.program();
     program.set("origin", glm::vec2(place.x, place.y));
     program.set("size", glm::vec2(place.width, place.height));
+    program.set("eyeSize", glm::vec2(composition.eye.width, composition.eye.height));
     pass.draw();
 }
 
 const Texture& Compositor::compose(const Composition& composition, PassLog& log) {
     PassScope scope(log, "compose");
-    const PictureSize size = composedSize(composition.display, {composition.left.width(), composition.left.height()});
+    const PictureSize size = composedSize(composition.display, composition.eye);
     if (!output_ || output_.width() != size.width || output_.height() != size.height) {
         output_ = Texture({GL_RGBA32F, size.width, size.height, 1, 0}, "composed picture");
         output_.setLinear(false);
@@ -88,7 +95,7 @@ void Compositor::present(const Placement& area, PassLog& log) {
     place.x += area.x;
     place.y += area.y;
     glViewport(place.x, place.y, place.width, place.height);
-    draw({output_, output_, DisplayChoice::mono, false, ToneMapChoice::none}, place, true);
+    draw({output_, output_, {output_.width(), output_.height()}}, place, true);
 }
 
 }  // namespace dioptre

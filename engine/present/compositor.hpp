@@ -23,7 +23,8 @@ Placement fitted(PictureSize picture, PictureSize window);
 struct Composition {
     const Texture& left;   // the only picture for DisplayChoice::mono
     const Texture& right;  // same size
-    DisplayChoice display = DisplayChoice::sideBySide;
+    PictureSize eye;       // as each is shown: theirs, or more pixels
+    DisplayChoice display = DisplayChoice::mono;
     bool swapEyes = false;
     ToneMapChoice tonemap = ToneMapChoice::none;
 };
@@ -40,7 +41,8 @@ class Compositor {
     const FullscreenPass& passFor(const Composition& composition, bool encode);
     void draw(const Composition& composition, const Placement& place, bool encode);
 
-    std::map<std::tuple<DisplayChoice, ToneMapChoice, bool>, FullscreenPass> passes_;  // display, tone map, encoded
+    // By display, tone map, whether encoded, whether of smaller pictures
+    std::map<std::tuple<DisplayChoice, ToneMapChoice, bool, bool>, FullscreenPass> passes_;
     Texture output_;
     Framebuffer target_;
 };

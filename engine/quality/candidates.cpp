@@ -22,7 +22,7 @@ Candidates::Candidates(const PriceModel& prices, const ExpectedErrors& errors, c
 std::vector<Plan> Candidates::methods() const {
     std::vector<Plan> allowed;
     for (const Plan& method : prices_.methods())
-        if (requirements_.blur || method.technique == TechniqueChoice::pinhole) allowed.push_back(method);
+        if (allows(method)) allowed.push_back(method);
     // A table may have no pinhole.
     if (allowed.empty()) allowed.push_back(prices_.methods().front());
     return allowed;

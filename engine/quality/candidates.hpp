@@ -27,7 +27,8 @@ class Candidates {
     Candidates(const PriceModel& prices, const ExpectedErrors& errors, const ViewClass& view,
                const Requirements& requirements);
 
-    /// Methods that may draw this view: where nothing is blurred, pinholes.
+    /// Whether a method may draw this view: where nothing is blurred, pinholes.
+    bool allows(const Plan& method) const { return requirements_.blur || method.technique == TechniqueChoice::pinhole; }
     std::vector<Plan> methods() const;
 
     PricedPlan priced(const Plan& plan) const;

@@ -47,7 +47,9 @@ bool Governor::Conditions::like(const Conditions& other) const {
            !differ(a.meanCocPx + 0.5, b.meanCocPx + 0.5, 1.5);
 }
 
-Governor::Governor(TradeTable table) : table_(std::move(table)), prices_(table_) {}
+Governor::Governor(TradeTable table) : table_(std::move(table)), prices_(table_) {
+    for (const Plan& method : prices_.methods()) trials_.push_back({method, {}});
+}
 
 void Governor::advanceClock(const Situation& s) {
     constexpr double kLongest = 60.0;
@@ -71,12 +73,12 @@ Governor::Conditions Governor::conditions(const Situation& s) const {
 void Governor::left(const Plan& method, const Situation& s) {
     if (!entered_ || entered_->first != method) return;
     if (enteredFrames_ < kProbation || entered_->second.like(conditions(s))) {
-        auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const auto& t) { return t.first == method; });
-        if (trial == trials_.end()) trial = trials_.insert(trials_.end(), {method, {}});
-        Trial& t = trial->second;
+        Trial& t =
+            std::find_if(trials_.begin(), trials_.end(), [&](const auto& u) { return u.first == method; })->second;
         t.failures = std::min(t.failures + 1, kMostFailures);
         t.until = clock_ + std::exp2(t.failures) * kBetweenUps;
         t.at = entered_->second;
+        t.otherFrames = 0;
     }
     entered_.reset();
 }
@@ -117,8 +119,8 @@ Governor::Move Governor::goDown(const Candidates& candidates, const Situation& s
     if (candidates.priced(*current_).milliseconds > kept) {
         const auto fewer = candidates.within(methodOf(*current_), kTarget * s.budgetMs);
         if (!fewer) {
-            // After a miss what is sure to fit, else what is foreseen to. Where nothing does: what may turn out to be the
-            // cheapest; drawn, it is no longer unsure.
+            // After a miss what is sure to fit, else what is foreseen to. Where nothing does: what may turn out to be
+            // the cheapest; drawn, it is no longer unsure.
             const double target = kTarget * s.budgetMs;
             const auto fits = missed ? candidates.safest(target) : candidates.best(target);
             const PricedPlan to = fits ? *fits : candidates.cheapest(1.0);
@@ -141,51 +143,50 @@ Governor::Move Governor::goDown(const Candidates& candidates, const Situation& s
     return {};
 }
 
-/// Failures are forgotten once load, budget or view have been others for a while.
-void Governor::forgetTrials(const Situation& s) {
+/// Failures are forgotten once load, budget or view have been others for a while; frames are counted in which a method
+/// is foreseen to fit, whatever is drawn.
+void Governor::foresee(const Candidates& candidates, const Situation& s) {
     for (auto& [method, trial] : trials_) {
         trial.otherFrames = trial.at.like(conditions(s)) ? 0 : trial.otherFrames + 1;
-        if (trial.otherFrames > kOtherFrames) trial = {};
+        if (trial.otherFrames > kOtherFrames) trial.failures = 0;
+        trial.fits = affordable(method, trial, candidates, s);
+        // What is but hoped for has not been foreseen.
+        const bool hoped = trial.fits && trial.fits->milliseconds > kTarget * s.budgetMs;
+        if (hoped != trial.hoped) trial.foreseenFrames = 0;
+        trial.hoped = hoped;
+        trial.foreseenFrames = trial.fits ? trial.foreseenFrames + 1 : 0;
     }
 }
 
-/// The method as it may be tried now: within the target, not waiting after a failure.
-std::optional<PricedPlan> Governor::tryable(const Plan& method, const Candidates& candidates,
-                                            const Situation& s) const {
-    int failures = 0;
-    for (const auto& [tried, trial] : trials_) {
-        if (tried != method) continue;
-        if (clock_ < trial.until) return std::nullopt;
-        failures = trial.failures;
-    }
-    const double limit = std::max(1.0 - kMoreRoom * failures, 0.8) * kTarget * s.budgetMs;
+/// The method as it may be tried once its wait after a failure is over; none where it does not fit.
+std::optional<PricedPlan> Governor::affordable(const Plan& method, const Trial& trial, const Candidates& candidates,
+                                               const Situation& s) const {
+    const double limit = std::max(1.0 - kMoreRoom * trial.failures, 0.8) * kTarget * s.budgetMs;
     if (const auto found = candidates.within(method, limit)) return found;
-    if (failures > 0 || clock_ < speculativeAfter_) return std::nullopt;
+    if (trial.failures > 0 || clock_ < speculativeAfter_) return std::nullopt;
     const double hope = std::min(kHope + (clock_ - speculativeAfter_) / kMoreHopeSeconds, 2.0 * kHope);
     return candidates.within(method, limit, std::pow(candidates.unsure(method), -hope));
 }
 
-/// What is better than the current plan by enough, and for how long; the same one as long as it is. Of several the one
-/// after whose trial the least error is to be expected: where it does not fit the current plan goes on.
-std::optional<PricedPlan> Governor::candidate(const Candidates& candidates, const Situation& s) {
-    const double now = candidates.priced(*current_).error, worth = kWorthIt * now;
+/// What has been foreseen to fit for long enough and is better than the current plan by enough. Of several the one after
+/// whose trial the least error is to be expected: where it does not fit, the current plan goes on.
+std::optional<PricedPlan> Governor::better(const Candidates& candidates, const Situation& s) const {
+    // After a missed frame the current method has fewer samples than it will soon have again.
+    const auto grown = candidates.within(methodOf(*current_), kGrown * s.budgetMs);
+    const double now = std::min(candidates.priced(*current_).error, grown ? grown->error : 1.0);
+    const double worth = kWorthIt * now;
     std::optional<PricedPlan> best;
-    double bestExpected = now;
-    for (const Plan& method : candidates.methods()) {
-        if (method == methodOf(*current_)) continue;
-        const auto found = tryable(method, candidates, s);
-        if (!found || found->error > worth) continue;
-        if (candidate_.frames > 0 && method == candidate_.method) {
-            ++candidate_.frames;
-            return found;
-        }
+    double least = now;
+    for (const auto& [method, trial] : trials_) {
+        if (!trial.fits || trial.foreseenFrames < kForeseenFrames || (trial.failures > 0 && clock_ < trial.until))
+            continue;
+        if (!candidates.allows(method) || method == methodOf(*current_) || trial.fits->error > worth) continue;
         const double fits = candidates.chanceToFit(method, kKept * s.budgetMs);
-        const double expected = fits * found->error + (1.0 - fits) * now;
-        if (best && expected >= bestExpected) continue;
-        best = found;
-        bestExpected = expected;
+        const double expected = fits * trial.fits->error + (1.0 - fits) * now;
+        if (expected >= least) continue;
+        best = trial.fits;
+        least = expected;
     }
-    candidate_ = best ? decltype(candidate_){methodOf(best->plan), 1} : decltype(candidate_){};
     return best;
 }
 
@@ -201,8 +202,9 @@ void Governor::enter(const PricedPlan& to, const Candidates& candidates, const S
         speculativeFrames_ = kSpeculativeFrames;
     }
     lastUp_ = clock_;
-    candidate_ = {};
     current_ = to.plan;
+    // The least tell as much, and miss by the least.
+    if (speculativeFrames_ > 0 && current_->samples) current_->samples = kLeastSamples;
     // Fewer samples at first where that lets both be drawn
     const auto both = candidates.within(methodOf(to.plan), target - from.milliseconds);
     // One technique has one set of buffers: two of its sizes in turn would make them anew for each frame of a fade.
@@ -223,12 +225,11 @@ void Governor::grow(const Candidates& candidates, const Situation& s) {
 }
 
 Governor::Move Governor::goUp(const Candidates& candidates, const Situation& s) {
-    forgetTrials(s);
-    const auto better = candidate(candidates, s);
-    if (better && candidate_.frames >= kForeseenFrames && clock_ - lastUp_ >= kBetweenUps) {
-        enter(*better, candidates, s);
-        return {PlanChange::up, "a better plan has been foreseen to fit"};
-    }
+    if (clock_ - lastUp_ >= kBetweenUps)
+        if (const auto found = better(candidates, s)) {
+            enter(*found, candidates, s);
+            return {PlanChange::up, "a better plan has been foreseen to fit"};
+        }
     if (!fade_.running) grow(candidates, s);
     return {};
 }
@@ -303,11 +304,14 @@ Decision Governor::decide(const Situation& situation) {
         if (safe && safe->error < candidates.priced(*current_).error) current_ = safe->plan;
     }
 
+    foresee(candidates, s);
     Move move = adapt(candidates, s);
     if (const Move down = goDown(candidates, s, missed && !rested_); down.change != PlanChange::none) move = down;
     if (move.change != PlanChange::none || s.unseen) {
-        candidate_ = {};
         fade_.running = false;
+        // What was foreseen then is not what is foreseen now.
+        if (move.change == PlanChange::down)
+            for (auto& [method, trial] : trials_) trial.foreseenFrames = 0;
     } else if (!missed && !s.lastRefined) {
         // What is drawn of a still view gets better by refining.
         move = goUp(candidates, s);

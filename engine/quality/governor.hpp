@@ -1,15 +1,15 @@
 // Chooses, each frame, the most accurate plan that the budget affords. Arithmetic on the times it is given: no clock.
 //
-// - It begins with the cheapest plan that gives the view what it requires, since the table may be another machine's. What
-//   that took says what else is sure to fit: with the best of it it goes on.
+// - It begins with the cheapest plan that gives the view what it requires, since the table may be another machine's.
+//   What that took says what else is sure to fit: with the best of it it goes on.
 // - It aims at 90 % of the budget: what is left is for what varies from frame to frame.
-// - The number of samples follows the price: down at once, up by at most a tenth, or one, a frame. It goes down after any missed
-//   frame, too.
+// - The number of samples follows the price: down at once, up by at most a tenth, or one, a frame. It goes down after
+//   any missed frame, too.
 // - The method (all of a plan but its samples) goes down at once where its price no longer fits. One frame far off its
 //   price is a spike and moves only the samples; a second one is believed.
-// - It goes up only to what is foreseen to fit for ten frames, at most once a second, and to a method that had to be left
-//   again only after a wait that doubles each time, until load or view are others. What was never drawn may turn out
-//   cheaper than its price: now and then, ever more seldom, it is tried.
+// - It goes up only to what is foreseen to fit for ten frames, at most once a second, and to a method that had to be
+//   left again only after a wait that doubles each time, until load or view are others. What was never drawn may turn
+//   out cheaper than its price: now and then, ever more seldom, it is tried.
 // - Up to another technique it cross-fades where both plans fit together; down it does not.
 // - While nobody sees (saccade, blink) the cheapest plan that has the blur is drawn; then the one from before goes on.
 //   That is no change of method: nothing is tried, nothing counted.
@@ -33,8 +33,8 @@ namespace dioptre {
 struct Situation {
     double now = 0.0;       // seconds, by a clock that should not run backwards; if it does, frames' times stand in
     double budgetMs = 0.0;  // of a frame, all eyes; not > 0: the cheapest plan
-    // What the frame of the last decision took, all eyes. None, or nonsense: nothing is learnt. None where something else
-    // was drawn.
+    // What the frame of the last decision took, all eyes. None, or nonsense: nothing is learnt. None where something
+    // else was drawn.
     std::optional<double> lastMs;
     bool lastRefined = false;  // that frame drew the refinement in place of the plan
     ViewClass view;
@@ -93,7 +93,10 @@ class Governor {
         int failures = 0;
         double until = 0.0;  // own clock
         Conditions at;
-        int otherFrames = 0;  // in succession that conditions were others
+        int otherFrames = 0;             // in succession that conditions were others
+        std::optional<PricedPlan> fits;  // as it may be tried, in this frame
+        bool hoped = false;              // that is: it fits if it is cheaper than its price
+        int foreseenFrames = 0;          // in succession that it fitted
     };
     struct Move {
         PlanChange change = PlanChange::none;
@@ -106,9 +109,10 @@ class Governor {
     Move goDown(const Candidates& candidates, const Situation& s, bool missed);
     Move goUp(const Candidates& candidates, const Situation& s);
     void grow(const Candidates& candidates, const Situation& s);
-    std::optional<PricedPlan> candidate(const Candidates& candidates, const Situation& s);
-    void forgetTrials(const Situation& s);
-    std::optional<PricedPlan> tryable(const Plan& method, const Candidates& candidates, const Situation& s) const;
+    void foresee(const Candidates& candidates, const Situation& s);
+    std::optional<PricedPlan> affordable(const Plan& method, const Trial& trial, const Candidates& candidates,
+                                         const Situation& s) const;
+    std::optional<PricedPlan> better(const Candidates& candidates, const Situation& s) const;
     void enter(const PricedPlan& to, const Candidates& candidates, const Situation& s);
     void left(const Plan& method, const Situation& s);
     bool fadeFits(const Candidates& candidates, const Situation& s, const Plan& to) const;
@@ -123,15 +127,11 @@ class Governor {
     bool sharp_ = false;             // the current plan is for a view without blur
     bool rested_ = false;
     struct {
-        Plan method;
-        int frames = 0;  // that it was foreseen to fit in succession
-    } candidate_;
-    struct {
         Plan from;
         double began = 0.0;
         bool running = false;
     } fade_;
-    std::vector<std::pair<Plan, Trial>> trials_;          // by method
+    std::vector<std::pair<Plan, Trial>> trials_;          // of each method
     std::optional<std::pair<Plan, Conditions>> entered_;  // the current method, if it was gone up to
     long enteredFrames_ = 0;                              // since then
     double clock_ = 0.0, step_ = 0.0;                     // seconds: own, never backwards; of the last frame

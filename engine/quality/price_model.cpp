@@ -147,8 +147,8 @@ void PriceModel::correct(std::span<const double> h, double difference) {
 void PriceModel::blame(std::size_t method, double jump) {
     const bool fresh = drawnFrames_ <= kNewFrames && sinceJump_ > 2 * kNewFrames && method < factors_.size();
     const bool known = fresh && factors_[method].frames > kKnownFrames;
-    // A method dearer than foreseen is found out by drawing it. One far cheaper than that is not so likely as a load that
-    // went.
+    // A method dearer than foreseen is found out by drawing it. One far cheaper than that is not so likely as a load
+    // that went.
     if (fresh && !known && jump > -3.0 * std::sqrt(factors_[method].most)) {
         covariance_[method][method] += square(jump);
         return;

@@ -18,7 +18,8 @@ inline constexpr double kSharpDiameter = 0.5;
 /// Samples that antialias what is wholly in focus.
 inline constexpr int kAntialiasingSamples = 8;
 
-/// Signed CoC RADII, px, > 0 behind focus: the nearest and the farthest of what is seen. A background is: infinitely far.
+/// Signed CoC RADII, px, > 0 behind focus: the nearest and the farthest of what is seen. A background is: infinitely
+/// far.
 struct CocRange {
     double nearest = 0.0, farthest = 0.0;
 };
@@ -31,7 +32,8 @@ struct CocBin {
     double pixels = 0.0;  // a count or a share; >= 0
 };
 
-/// Of a picture of about this view: for its class. What it requires hangs on the boxes, which bound what comes next, too.
+/// Of a picture of about this view: for its class. What it requires hangs on the boxes, which bound what comes next,
+/// too.
 struct PixelStatistics {
     double inFront = 0.0, behind = 0.0;                // shares of the picture whose CoC is not sharp, 0..1
     double meanDiameter = 0.0, largestDiameter = 0.0;  // CoC DIAMETERS, px
@@ -65,9 +67,9 @@ struct Requirements {
 };
 Requirements require(const ViewFacts& facts);
 
-/// Levels of the mipmap technique's pyramid that are read, of `all`: as many as the largest blur needs; with a foreground
-/// all, since its largest radius is at the top. Never one alone: some drivers then switch to a cheaper fetch, and the
-/// price would jump in the middle of a focus pull.
+/// Levels of the mipmap technique's pyramid that are read, of `all`: as many as the largest blur needs; with a
+/// foreground all, since its largest radius is at the top. Never one alone: some drivers then switch to a cheaper
+/// fetch, and the price would jump in the middle of a focus pull.
 int pyramidLevels(double largestBehind, bool foreground, int all);
 
 /// The class of a view for prices and errors: by pixels where they are known, else by boxes.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -126,6 +127,10 @@ TradeTable tableOf(const Element& root) {
     return table;
 }
 
+constexpr double kLeastCocPx = 0.25;  // DIAMETER; less is not seen
+// Of an error's logarithm, for each doubling of the blur: a picture without any misses by no more than all of it.
+constexpr double kMostSlope = 1.0;
+
 /// Doublings between two amounts; below `least` they are as good as equal.
 double doublings(double a, double b, double least) {
     const auto sane = [&](double x) { return std::isfinite(x) ? std::max(x, least) : least; };
@@ -145,8 +150,8 @@ double errorOfScale(int eighths, double meanCocPx) {
 /// How little two views are alike, >= 0; 0: the same. In doublings of blur and of triangles per pixel.
 double distanceOf(const ViewClass& a, const ViewClass& b) {
     // Error hangs on blur before all else; what lies on which side of focus is worth a doubling of it.
-    const double mean = doublings(a.meanCocPx, b.meanCocPx, 0.25);
-    const double largest = 0.5 * doublings(a.largestCocPx, b.largestCocPx, 0.25);
+    const double mean = doublings(a.meanCocPx, b.meanCocPx, kLeastCocPx);
+    const double largest = 0.5 * doublings(a.largestCocPx, b.largestCocPx, kLeastCocPx);
     const double side = 1.4 * (a.behindShare - b.behindShare);
     const double density = 0.25 * (doublings(a.triangles, b.triangles, 1.0) - doublings(a.pixels, b.pixels, 1.0));
     return std::hypot(std::hypot(mean, largest), std::hypot(side, density));
@@ -187,22 +192,37 @@ std::vector<Plan> TradeTable::methods() const {
 
 ExpectedErrors::ExpectedErrors(const TradeTable& table, const ViewClass& view) : meanCocPx_(view.meanCocPx) {
     constexpr double kLeastError = 1e-5;  // equal pictures have no logarithm
-    std::vector<double> weights;
+    // A view with less blur than any that was measured is as the least blurred of its kind, and goes on from there.
+    ViewClass measured = view;
+    double leastCoc = std::numeric_limits<double>::infinity();
+    for (const ViewClass& known : table.views) leastCoc = std::min(leastCoc, known.meanCocPx);
+    measured.meanCocPx = std::max(view.meanCocPx, leastCoc);
+    const double below = std::min(doublings(view.meanCocPx, measured.meanCocPx, kLeastCocPx), 0.0);
+    std::vector<double> weights, blurs;
     for (const ViewClass& known : table.views) {
         // So that the nearest decides, and the step from one to the next is no jump
-        const double distance = distanceOf(view, known) + 0.1;
+        const double distance = distanceOf(measured, known) + 0.1;
         weights.push_back(std::pow(distance, -4.0));
+        blurs.push_back(doublings(known.meanCocPx, measured.meanCocPx, kLeastCocPx));
     }
     for (const TradeTable::Row& row : table.rows) {
-        double sum = 0.0, all = 0.0;
+        double sum = 0.0, all = 0.0, blur = 0.0, blur2 = 0.0, product = 0.0;
         for (const TradeTable::Entry& entry : row.entries) {
-            sum += weights[entry.view] * std::log(std::max(entry.error, kLeastError));
-            all += weights[entry.view];
+            const double weight = weights[entry.view], logError = std::log(std::max(entry.error, kLeastError));
+            sum += weight * logError;
+            all += weight;
+            blur += weight * blurs[entry.view];
+            blur2 += weight * blurs[entry.view] * blurs[entry.view];
+            product += weight * blurs[entry.view] * logError;
         }
+        // Least squares; a technique that does worse with less blur does so because of what it cannot smooth, no more.
+        const double spread = all * blur2 - blur * blur;
+        const double slope = spread > 1e-9 * all * all ? (all * product - blur * sum) / spread : 0.0;
+        const double logError = sum / all + std::clamp(slope, 0.0, kMostSlope) * below;
         const Plan method = methodOf(row.plan);
         auto curve = std::find_if(curves_.begin(), curves_.end(), [&](const Curve& c) { return c.method == method; });
         if (curve == curves_.end()) curve = curves_.insert(curves_.end(), {method, {}});
-        curve->points.push_back({std::log(static_cast<double>(row.plan.samples.value_or(1))), sum / all});
+        curve->points.push_back({std::log(static_cast<double>(row.plan.samples.value_or(1))), logError});
     }
     for (Curve& curve : curves_) {
         std::vector<Point>& p = curve.points;

@@ -31,13 +31,15 @@ struct TradeTable {
 };
 
 /// InputError naming the file and the element, "llvmpipe.json: plans[3].entries[0].ssim: 7, must be ...": unreadable,
-/// broken JSON, nested too deep, a repeated key or entry, too many plans, another schema, a missing key, a wrong type, a value out of range, an unknown view, nothing measured.
+/// broken JSON, nested too deep, a repeated key or entry, too many plans, another schema, a missing key, a wrong type,
+/// a value out of range, an unknown view, nothing measured.
 TradeTable readTradeTable(const std::filesystem::path& file);
 TradeTable parseTradeTable(std::string_view json, std::string_view where);
 
-/// Expected error, 1 - SSIM, of every plan in one view. Of the measured views the nearest counts most. Between measured
-/// numbers of samples N, and beyond them, by straight lines in log N and log error; a method that was measured at one N
-/// takes the reference's slope.
+/// Expected error, 1 - SSIM, of every plan in one view. Of the measured views the nearest counts most; with less blur than
+/// in any of them errors go on as they fall towards the least blurred, down to 0.25 px. Between measured numbers of
+/// samples N, and beyond them, by straight lines in log N and log error; a method that was measured at one N takes the
+/// reference's slope.
 class ExpectedErrors {
   public:
     ExpectedErrors(const TradeTable& table, const ViewClass& view);

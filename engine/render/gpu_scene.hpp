@@ -66,9 +66,10 @@ class GpuScene {
     /// Another number with each other pose or further level of detail.
     std::uint64_t version() const { return version_; }
 
-    /// Draws what `view` sees to the bound framebuffer (programs are compiled when first needed, in a frame): radiance × exposure and depth, or depth alone. The depth
-    /// buffer must have been cleared to 0 (reversed depth). The depth left is that of the surface which gives the pixel
-    /// most of its light: of a blended one where its alpha is 0.5 or more.
+    /// Draws what `view` sees to the bound framebuffer (programs are compiled when first needed, in a frame): radiance
+    /// × exposure and depth, or depth alone. The depth buffer must have been cleared to 0 (reversed depth). The depth
+    /// left is that of the surface which gives the pixel most of its light: of a blended one where its alpha is 0.5 or
+    /// more.
     void drawRadiance(const View& view, float exposure) const;
     void drawDepth(const View& view) const;
 

@@ -1,4 +1,5 @@
-// What techniques share that average pictures through many points of the lens: layers to draw samples to, and their sum.
+// What techniques share that average pictures through many points of the lens: layers to draw samples to, and their
+// sum.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +38,8 @@ class SampleSum {
     /// Ready for more samples of `frame`: those of former frames are kept where it draws some of them at a time and
     /// nothing that the picture depends on is new.
     void begin(const EyeFrame& frame);
-    /// Calls `draw` with the number of samples, at most `most`, that it is to draw and add next, until there are as many
-    /// as the frame asks for, at all or now.
+    /// Calls `draw` with the number of samples, at most `most`, that it is to draw and add next, until there are as
+    /// many as the frame asks for, at all or now.
     void refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw);
     /// Of the samples asked for; counts those that add() and addDrawn() were told of.
     int drawn() const { return drawn_; }

@@ -27,8 +27,8 @@ struct EyeFrame {
     int samples = 512;    // reference, accumulate: points of the lens, >= 1
     int subsamples = 0;   // accumulate: more points of the lens for each, on average; 0..16
     int firstSample = 0;  // reference, accumulate: where in the sequence they begin
-    // reference, accumulate: 0 draws all samples now; more: at most so many more in this picture, which goes on from the
-    // last one while nothing else here changes.
+    // reference, accumulate: 0 draws all samples now; more: at most so many more in this picture, which goes on from
+    // the last one while nothing else here changes.
     int samplesNow = 0;
 };
 
@@ -39,15 +39,15 @@ class Technique {
     Technique(const Technique&) = delete;
     Technique& operator=(const Technique&) = delete;
 
-    /// Linear radiance × exposure, RGBA16F or RGBA32F, view.width × view.height; valid until the next call. Leaves depth test and
-    /// blending off. Throws InputError for a stage it does not have, RunError where the GL fails.
+    /// Linear radiance × exposure, RGBA16F or RGBA32F, view.width × view.height, a texture that filters and ends at its
+    /// edges; valid until the next call. Leaves depth test and blending off. Throws InputError for a stage it does not have, RunError where the GL fails.
     virtual const Texture& draw(const EyeFrame& frame) = 0;
 
     /// How much of what was asked for the last picture has, 0..1; below 1 while it still refines.
     virtual double progress() const { return 1.0; }
 
-    /// Reversed depth of (one point of the lens in) the picture drawn last, at its size: a texture, or the first layer of
-    /// an array.
+    /// Reversed depth of (one point of the lens in) the picture drawn last, at its size: a texture, or the first layer
+    /// of an array.
     virtual const Texture& depth() const = 0;
 
     /// Textures held, the geometry pass's included.

@@ -1,12 +1,12 @@
 // Cohen, Manocha, Olano 1997, "Simplifying polygonal models using successive mappings": old and new faces overlaid in a
-// plane. Klein, Liebich, Strasser 1996, "Mesh reduction with error control": the distance from the first surface, carried
-// along from step to step.
+// plane. Klein, Liebich, Strasser 1996, "Mesh reduction with error control": the distance from the first surface,
+// carried along from step to step.
 //
 // Both fans are seen along the normal n of their common border, the sum of the faces' vector areas, which is the same
 // for both. Where all faces of both look up, seeing along n relates each point of one fan to one of the other. The
-// heights of both are linear in each cell of the overlay, so that they differ most at its corners: where v is, and where
-// old spokes (from v) cross new ones (from ring 0); on the border they do not differ. If all points of the old face F
-// were within e(F) of what they stand for at level 0, those of the new face G are within
+// heights of both are linear in each cell of the overlay, so that they differ most at its corners: where v is, and
+// where old spokes (from v) cross new ones (from ring 0); on the border they do not differ. If all points of the old
+// face F were within e(F) of what they stand for at level 0, those of the new face G are within
 //   e(G) = max over old faces F that G overlaps of  e(F) + max over corners of the cell of the height difference.
 #include "scene/fan.hpp"
 

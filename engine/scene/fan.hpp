@@ -1,5 +1,5 @@
-// What becomes of the faces around a vertex v that is moved onto one of its neighbours: whether they stay sound, and how
-// far the surface moves. Plain arithmetic, for the simplifier.
+// What becomes of the faces around a vertex v that is moved onto one of its neighbours: whether they stay sound, and
+// how far the surface moves. Plain arithmetic, for the simplifier.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace dioptre {
 /// Vertices with more neighbours wait until they have fewer.
 constexpr std::size_t kMostNeighbours = 32;
 
-/// The faces F_i = (v, ring i, ring i+1) around v at the origin, which is to become ring 0. What is left of them then is
-/// G_i = (ring 0, ring i, ring i+1), for 0 < i < count - 1.
+/// The faces F_i = (v, ring i, ring i+1) around v at the origin, which is to become ring 0. What is left of them then
+/// is G_i = (ring 0, ring i, ring i+1), for 0 < i < count - 1.
 struct Fan {
     std::size_t count = 0;  // of neighbours, at least 3
     bool open = false;      // v is on a border, between the last and the first of the ring, on a straight line

@@ -2,11 +2,11 @@
 // Source: Khronos glTF 2.0 specification. Files are taken as hostile: each number is checked before it is used.
 //
 // Read: the node tree of the default scene (the first if none is named; all roots if there are no scenes), points,
-// lines and triangles in all seven modes with or without indices, vertex colours (COLOR_0, clamped to 0..1), base colour,
-// metallic-roughness, normal, occlusion and emissive textures (PNG, JPEG) with any sampler, alpha masks and blending,
-// perspective cameras, sparse, interleaved and normalised accessors, animations of translation, rotation, scale and
-// weights (step, linear, cubic spline), skins of any number of joints and influences, morph targets of positions,
-// normals and tangents, KHR_lights_punctual, KHR_materials_unlit, KHR_materials_emissive_strength,
+// lines and triangles in all seven modes with or without indices, vertex colours (COLOR_0, clamped to 0..1), base
+// colour, metallic-roughness, normal, occlusion and emissive textures (PNG, JPEG) with any sampler, alpha masks and
+// blending, perspective cameras, sparse, interleaved and normalised accessors, animations of translation, rotation,
+// scale and weights (step, linear, cubic spline), skins of any number of joints and influences, morph targets of
+// positions, normals and tangents, KHR_lights_punctual, KHR_materials_unlit, KHR_materials_emissive_strength,
 // KHR_mesh_quantization, KHR_texture_transform. A material may read any two of the TEXCOORD_n.
 // Made up: missing normals are flat ones (vertices unshared, given tangents dropped), but points and lines without
 // normals are not lit; a zero normal becomes that of its faces; missing tangents come from the texture coordinates when

@@ -32,8 +32,8 @@ bool hasLods(const Primitive& primitive);
 std::filesystem::path lodFolder();
 
 /// Threads work on one primitive each, the largest first; equal primitives are made once. A file of the cache that is
-/// broken is made anew, a cache that cannot be written is done without, each with a warning. Files of meshes that are no
-/// longer there stay.
+/// broken is made anew, a cache that cannot be written is done without, each with a warning. Files of meshes that are
+/// no longer there stay.
 class LodBuilder {
   public:
     /// Starts at once. The scene must keep its vertices and indices until finished(), or longer than the builder.

@@ -118,8 +118,8 @@ std::string lodBytes(const Primitive& primitive, std::span<const LodLevel> level
 std::optional<std::vector<LodLevel>> readLods(const fs::path& file, const Primitive& primitive) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return std::nullopt;
-    // Each level has fewer than the one before, and none more than three of four of its triangles: at most three times the
-    // source
+    // Each level has fewer than the one before, and none more than three of four of its triangles: at most three times
+    // the source
     const std::size_t most = primitive.indices.size() * 4 * sizeof(std::uint32_t) + 65536;
     const std::string bytes = readFile(file, most);
     Reader whole(file, bytes);

@@ -15,7 +15,8 @@ namespace dioptre {
 std::string lodKey(const Primitive& primitive, std::span<const std::uint8_t> fixed);
 
 /// KEY.lod, in the byte order of this machine: magic, version, number of vertices, of triangles and of levels, then of
-/// each level the number of indices, error, seconds and the indices, then a checksum (64 bits, ContentHash) of all that.
+/// each level the number of indices, error, seconds and the indices, then a checksum (64 bits, ContentHash) of all
+/// that.
 std::string lodBytes(const Primitive& primitive, std::span<const LodLevel> levels);
 
 /// None where there is no file. InputError, with what is wrong, for one that is not whole or not of this primitive.

@@ -7,8 +7,8 @@
 
 namespace dioptre {
 
-/// Gives each triangle three vertices (and extras) of its own and each vertex the normal of its face (counter-clockwise is front).
-/// A triangle without area gets +z.
+/// Gives each triangle three vertices (and extras) of its own and each vertex the normal of its face (counter-clockwise
+/// is front). A triangle without area gets +z.
 void makeFlat(Primitive& primitive);
 
 /// Gives each vertex marked in `missing` the area-weighted normal of the faces around it, +z where they

@@ -3,19 +3,21 @@
 //   MONO, SIDE_BY_SIDE, SIDE_BY_SIDE_HALF, TOP_BOTTOM, ANAGLYPH: one of them
 //   NEUTRAL  Khronos PBR Neutral tone mapping
 //   ENCODE   to sRGB, for a window
+//   SMALLER  the eyes' pictures have fewer pixels than are shown of them
 #include "present/srgb.glsl"
 
 layout(binding = 0) uniform sampler2D leftEye;
 layout(binding = 1) uniform sampler2D rightEye;
 uniform vec2 origin;   // of the picture in the target, pixels
 uniform vec2 size;     // of the picture in the target, pixels
+uniform vec2 eyeSize;  // of one eye's picture as it is shown, pixels
 
 layout(location = 0) out vec4 color;
 
-// At a place in the eye's pixels (of a whole picture that is stretched: filtered).
+// At a place in the eye's pixels; filtered where it is stretched.
 vec3 eye(sampler2D picture, vec2 at) {
-#ifdef ENCODE
-    return textureLod(picture, at / vec2(textureSize(picture, 0)), 0.0).rgb;
+#if defined(ENCODE) || defined(SMALLER)
+    return textureLod(picture, at / eyeSize, 0.0).rgb;
 #else
     return texelFetch(picture, ivec2(at), 0).rgb;
 #endif
@@ -23,6 +25,9 @@ vec3 eye(sampler2D picture, vec2 at) {
 
 // Squeezed to half width: two source pixels to one, so that nothing is skipped.
 vec3 squeezed(sampler2D picture, vec2 at) {
+#ifdef SMALLER
+    return eye(picture, vec2(2.0 * floor(at.x) + 1.0, at.y));
+#endif
     int x = 2 * int(at.x), last = textureSize(picture, 0).x - 1;
     ivec2 first = ivec2(min(x, last), at.y), second = ivec2(min(x + 1, last), at.y);
     return 0.5 * (texelFetch(picture, first, 0).rgb + texelFetch(picture, second, 0).rgb);
@@ -55,7 +60,7 @@ vec3 toneMapNeutral(vec3 c) {
 void main() {
     vec2 at = gl_FragCoord.xy - origin;
 #ifdef MONO
-    vec3 c = eye(leftEye, at * (vec2(textureSize(leftEye, 0)) / size));
+    vec3 c = eye(leftEye, at * (eyeSize / size));
 #elif defined(ANAGLYPH)
     vec3 c = anaglyph(eye(leftEye, at), eye(rightEye, at));
 #else

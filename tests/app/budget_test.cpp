@@ -90,8 +90,28 @@ TEST_F(BudgetTest, TheGovernorChoosesWithinTheBudget) {
     EXPECT_TRUE(j.at("changes").is_object());
     EXPECT_EQ(j.at("missed"), 0);
     int frames = 0;
-    for (const auto& [plan, count] : j.at("plans").items()) frames += count.get<int>();
+    bool samples = false;
+    for (const auto& [plan, count] : j.at("plans").items()) {
+        frames += count.get<int>();
+        samples = samples || plan.find("samples") != std::string::npos;
+    }
     EXPECT_EQ(frames, 12);
+    EXPECT_TRUE(samples) << "ten seconds are enough for points of the lens: " << j.at("plans");
+
+    // What nothing fits into is missed by the least there is.
+    ASSERT_EQ(budget({"--frames", "12", "--budget-ms", "0.001"}).status, 0);
+    EXPECT_EQ(result().at("missed"), 12);
+    int least = 0;
+    for (const auto& [plan, count] : result().at("plans").items())
+        if (plan.find("2/8 size") != std::string::npos) least += count.get<int>();
+    EXPECT_GE(least, 6) << result().at("plans");
+}
+
+TEST_F(BudgetTest, AGazeThatIsGivenStaysThere) {
+    ASSERT_EQ(budget({"--frames", "2", "--technique", "pinhole", "--gaze", "0.5,0.5"}).status, 0);
+    EXPECT_EQ(result().at("gaze_trace"), "");
+    ASSERT_EQ(budget({"--frames", "2", "--technique", "pinhole"}).status, 0);
+    EXPECT_THAT(result().at("gaze_trace").get<std::string>(), testing::HasSubstr("seated"));
 }
 
 TEST_F(BudgetTest, TheRateIsTheBudgetWhereNoneIsGivenAndTheOtherWayAround) {

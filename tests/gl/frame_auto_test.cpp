@@ -157,7 +157,9 @@ TEST_F(AutoGLTest, SmallerPicturesAreEnlargedAndFadesAreMeans) {
     const EyeFrame frame{scene, shot.view, shot.lens, 1.0f, 0, {}, log};
     EyePicture eye;
     const Plan whole{TechniqueChoice::mipmap, 0, {}, {}}, half{TechniqueChoice::mipmap, 0, {}, {}, 4};
-    const Image large = readPicture(eye.draw(whole, frame)), small = readPicture(eye.draw(half, frame));
+    const Image large = readPicture(eye.draw(whole, frame));
+    EXPECT_EQ(eye.draw(half, frame).width(), large.width / 2);
+    const Image small = readPicture(eye.fade(half, half, 1.0, frame));
     ASSERT_EQ(small.width, large.width);
     ASSERT_EQ(small.height, large.height);
     EXPECT_GT(ssim(small, large), 0.8);

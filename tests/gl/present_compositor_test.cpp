@@ -27,10 +27,12 @@ class CompositorGLTest : public GlTest {
         glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, pixels.data());
         return texture;
     }
+    /// `larger`: pixels shown for each of the eyes', along either side.
     Image compose(const Texture& left, const Texture& right, DisplayChoice display, bool swap = false,
-                  ToneMapChoice tonemap = ToneMapChoice::none) {
+                  ToneMapChoice tonemap = ToneMapChoice::none, int larger = 1) {
         PassLog log;
-        return readPicture(compositor_.compose({left, right, display, swap, tonemap}, log));
+        const PictureSize shown{left.width() * larger, left.height() * larger};
+        return readPicture(compositor_.compose({left, right, shown, display, swap, tonemap}, log));
     }
     /// One colour for both eyes, tone mapped.
     glm::dvec3 toneMapped(glm::vec3 color) {
@@ -121,6 +123,24 @@ TEST_F(CompositorGLTest, HalfPicturesAverageTwoPixels) {
         return x < 4 ? leftPixel(2 * x + 0.5, y) : rightPixel(2 * (x - 4) + 0.5, y);
     };
     expectPixels(compose(left_, right_, DisplayChoice::sideBySideHalf), squeezed, 1e-5, "side by side, half");
+}
+
+TEST_F(CompositorGLTest, SmallerPicturesAreEnlarged) {
+    // At a place in the larger picture of 16x8, pixels; beyond the outer pixels' centres nothing changes.
+    const auto source = [](double x, int last) { return std::clamp(0.5 * (x + 0.5) - 0.5, 0.0, 1.0 * last); };
+    const auto left = [&](double x, double y) { return leftPixel(source(x, 7), source(y, 3)); };
+    const auto right = [&](double x, double y) { return rightPixel(source(x, 7), source(y, 3)); };
+    const auto larger = [&](DisplayChoice display) {
+        return compose(left_, right_, display, false, ToneMapChoice::none, 2);
+    };
+    constexpr double kFiltered = 0.02;  // weights have eight bits
+    expectPixels(larger(DisplayChoice::mono), left, kFiltered, "mono");
+    const auto beside = [&](int x, int y) { return x < 16 ? left(x, y) : right(x - 16, y); };
+    expectPixels(larger(DisplayChoice::sideBySide), beside, kFiltered, "side by side");
+    const auto below = [&](int x, int y) { return y < 8 ? left(x, y) : right(x, y - 8); };
+    expectPixels(larger(DisplayChoice::topBottom), below, kFiltered, "top-bottom");
+    const auto squeezed = [&](int x, int y) { return x < 8 ? left(2 * x + 0.5, y) : right(2 * (x - 8) + 0.5, y); };
+    expectPixels(larger(DisplayChoice::sideBySideHalf), squeezed, kFiltered, "half");
 }
 
 TEST_F(CompositorGLTest, SwappedEyesChangePlaces) {

@@ -142,6 +142,25 @@ TEST(ExpectedErrorsTest, ChangeGraduallyFromViewToView) {
     }
 }
 
+TEST(ExpectedErrorsTest, WithLessBlurThanMeasuredPinholesAndSamplesDoBetter) {
+    ViewClass view = small().views[0];
+    for (const ViewClass& known : small().views)
+        if (known.meanCocPx < view.meanCocPx) view = known;
+    const ExpectedErrors least(small(), view);
+    view.meanCocPx *= 0.25;
+    const ExpectedErrors less(small(), view);
+    const Plan pinhole{TechniqueChoice::pinhole, 0, {}, {}}, mipmap{TechniqueChoice::mipmap, 0, {}, {}},
+        reference{TechniqueChoice::reference, {}, 4, {}};
+    EXPECT_LT(less.of(pinhole), 0.7 * least.of(pinhole));
+    EXPECT_LT(less.of(reference), 0.7 * least.of(reference));
+    EXPECT_GT(less.of(pinhole), 0.1 * least.of(pinhole)) << "edges stay";
+    EXPECT_LE(less.of(mipmap), 1.001 * least.of(mipmap));
+    view.meanCocPx = 0.0;
+    const double none = ExpectedErrors(small(), view).of(pinhole);
+    view.meanCocPx = 0.25;
+    EXPECT_DOUBLE_EQ(ExpectedErrors(small(), view).of(pinhole), none) << "goes on no farther";
+}
+
 TEST(ExpectedErrorsTest, SmallerPicturesAreWorse) {
     const ExpectedErrors errors(small(), small().views[1]);
     for (int eighths = kLeastEighths; eighths < 8; ++eighths)

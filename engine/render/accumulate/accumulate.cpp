@@ -167,8 +167,8 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     const glm::mat4 clip(clipFromView(frame.view));
     PassScope scope(frame.log, "show");
     // Blended surfaces keep their own colours.
-    // The mean of the picture in the levels' colours and of these alone: what outshines all that half floats hold is cut
-    // to one value.
+    // The mean of the picture in the levels' colours and of these alone: what outshines all that half floats hold is
+    // cut to one value.
     constexpr float kMostRadiance = 65504.0f, kOutshining = 1e30f;
     for (const auto& [exposure, scale] : {std::pair(frame.exposure, 1.0f), {kOutshining, 1.0f / kMostRadiance}}) {
         layers_.bind(true);

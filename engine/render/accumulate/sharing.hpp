@@ -2,9 +2,10 @@
 // [JKLL13] Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur".
 //
 // A point with CoC radius c is moved by c v on the screen, v in the unit disc. Of an object whose largest CoC radius is
-// r, all samples with r v in the same cell of 1/grid pixels are drawn once, through their parent, and copied. That moves
-// nothing by more than the cell's diagonal, 1.42/grid px, and what lies nearer to focus by less. The parent is the mean
-// of its samples: with the one nearest to the middle of the cell, as published, an object as a whole can be moved.
+// r, all samples with r v in the same cell of 1/grid pixels are drawn once, through their parent, and copied. That
+// moves nothing by more than the cell's diagonal, 1.42/grid px, and what lies nearer to focus by less. The parent is
+// the mean of its samples: with the one nearest to the middle of the cell, as published, an object as a whole can be
+// moved.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -24,8 +25,8 @@ struct SharedRenderings {
 
 /// Each sample has one parent. A parent's pixel jitter is that of all who share it, so it stands for at most one in
 /// kLeastJitters samples, or edges would not stay antialiased: cells with more are divided among parents. On the
-/// checkerboard of AccumulateGLTest.SharedRenderingsMoveNothingByMoreThanTheirCells, 64 samples, CoC radii of 0 to 1.5 px,
-/// eight gave SSIM 0.988 or more to plain accumulation, sixteen 0.994.
+/// checkerboard of AccumulateGLTest.SharedRenderingsMoveNothingByMoreThanTheirCells, 64 samples, CoC radii of 0 to 1.5
+/// px, eight gave SSIM 0.988 or more to plain accumulation, sixteen 0.994.
 inline constexpr int kLeastJitters = 16;
 SharedRenderings shareRenderings(std::span<const LensSample> samples, double cocRadius, int grid);
 

@@ -2,9 +2,9 @@
 // [JKLL13] Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur";
 // [LES09] Lee, Eisemann, Seidel 2009, "Depth-of-field rendering with multiview synthesis"; Decoret 2005, "N-buffers".
 //
-// Seen from v, a point with signed CoC radius c (optics/lens.hpp) is c v away from where the middle of the lens sees it.
-// So what v + o sees at pixel p, v sees at p - c o: on a line whose every place belongs to one c. The first place, from
-// the near end, whose picture has the c that belongs to it is what v + o sees: a ray cast against the one layer of
+// Seen from v, a point with signed CoC radius c (optics/lens.hpp) is c v away from where the middle of the lens sees
+// it. So what v + o sees at pixel p, v sees at p - c o: on a line whose every place belongs to one c. The first place,
+// from the near end, whose picture has the c that belongs to it is what v + o sees: a ray cast against the one layer of
 // depths that v sees. No place has it where v sees nothing of what v + o does. There [JKLL13] takes p itself where a
 // surface bounds the line ("blocked"), the background where none does. Here both are one: the last place whose picture
 // lies behind the ray, since what is hidden continues what lies behind it (SSIM 0.980 for 0.978 with p itself). A place

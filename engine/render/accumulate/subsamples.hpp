@@ -8,10 +8,10 @@
 
 namespace dioptre {
 
-/// N (S + 1) points of the lens sequence from `first` on, of which the first N are primary samples: each of the others is a
-/// sub-sample of the nearest primary. So all together they cover the lens as evenly as N (S + 1) samples do, and no
-/// lookup goes farther than it must; [JKLL13] scatters S points around each primary, which overlap. A primary has S on
-/// average.
+/// N (S + 1) points of the lens sequence from `first` on, of which the first N are primary samples: each of the others
+/// is a sub-sample of the nearest primary. So all together they cover the lens as evenly as N (S + 1) samples do, and
+/// no lookup goes farther than it must; [JKLL13] scatters S points around each primary, which overlap. A primary has S
+/// on average.
 struct Subsamples {
     std::vector<glm::vec2>
         offsets;             // from the primary, in units of the lens's radius; all of sample 0, of sample 1, ...

@@ -21,11 +21,11 @@
 //   variance of the half-size steps taken off; where those alone have more, blur and sharp picture are mixed. [LKC09]'s
 //   σ = C/2 is an overestimate: its magnification delivers 0.58 of it.
 //
-// What is seen through blended surfaces: a pixel has one colour and one depth, that of the surface which gives it most of
-// its light (gpu_scene.hpp). A pane of alpha 0.5 or more is blurred, before and behind focus, as if it were opaque, and
-// what is seen through it takes its blur; a fainter one takes the blur of what is behind it. So glass in focus keeps its
-// edges, and a tint over a view does not change how sharp the view is. Both at once, each with its own blur, only the
-// reference has.
+// What is seen through blended surfaces: a pixel has one colour and one depth, that of the surface which gives it most
+// of its light (gpu_scene.hpp). A pane of alpha 0.5 or more is blurred, before and behind focus, as if it were opaque,
+// and what is seen through it takes its blur; a fainter one takes the blur of what is behind it. So glass in focus
+// keeps its edges, and a tint over a view does not change how sharp the view is. Both at once, each with its own blur,
+// only the reference has.
 //
 // Passes: geometry; split (2×2 pixels to a texel of the layers base, front, back and of the foreground's radii);
 // pyramid (a pass a level); reach (DoN per tile); blur (half size); composite (full size). Without a foreground in view
