@@ -71,25 +71,26 @@ bool PlannedPictures::calm(const EyeFrame& frame) const {
 /// Melting costs a pass, not a second drawing.
 PlannedPictures::Drawn PlannedPictures::draw(const Decision& decision, std::span<const EyeFrame> frames, double step,
                                              bool unseen) {
-    constexpr double kSeconds = 0.1;
-    const bool melts = calm(frames.front()) && !unseen && step > 0.0 && step < kSeconds;
-    if (!melts) melting_ = 0.0;
+    // What is shown of the new picture grows to all of it: one that flickers begins to do so gradually.
+    constexpr double kSeconds = 0.2;
+    const bool melts = calm(frames.front()) && !unseen && step > 0.0 && step < 0.5 * kSeconds;
+    if (!melts) melting_.reset();
     // Before anything is drawn over it
     const bool refines = decision.refinement && !decision.fade && base_ && methodOf(*base_) == methodOf(decision.plan);
     std::vector<const Texture*> old;
     for (const Eye& eye : eyes_) old.push_back(eye.shown);
     const auto begin = [&](const Plan& plan) {
         if (!melts || decision.fade || !before_ || methodOf(plan) == methodOf(before_->plan)) return;
-        for (std::size_t i = 0; melting_ <= 0.0 && i < eyes_.size(); ++i) eyes_[i].picture.remember(*old[i], frames[i]);
-        melting_ = kSeconds;
+        for (std::size_t i = 0; !melting_ && i < eyes_.size(); ++i) eyes_[i].picture.remember(*old[i], frames[i]);
+        melting_ = 0.0;
     };
     // Refining leaves the pictures by plan as they are; a plan's picture may be drawn where the one before stands.
     if (!refines) begin(decision.plan);
     const Drawn drawn = refines ? refine(decision, frames) : drawPlan(decision, frames);
     if (refines) begin(drawn.plan);
-    for (std::size_t i = 0; melting_ > 0.0 && i < eyes_.size(); ++i)
-        eyes_[i].shown = &eyes_[i].picture.soften(*eyes_[i].shown, std::min(1.0, step / melting_), frames[i]);
-    melting_ = std::max(0.0, melting_ - step);
+    if (melting_ && (*melting_ += step) >= kSeconds) melting_.reset();
+    for (std::size_t i = 0; melting_ && i < eyes_.size(); ++i)
+        eyes_[i].shown = &eyes_[i].picture.soften(*eyes_[i].shown, *melting_ / kSeconds, frames[i]);
     before_ = Before{drawn.plan, frames.front().view, frames.front().scene.version()};
     return drawn;
 }
@@ -97,7 +98,7 @@ PlannedPictures::Drawn PlannedPictures::draw(const Decision& decision, std::span
 void PlannedPictures::cut() {
     base_.reset();
     before_.reset();
-    melting_ = 0.0;
+    melting_.reset();
 }
 
 double PlannedPictures::progress() const {

@@ -62,8 +62,8 @@ class PlannedPictures {
         View view;                  // of the first eye
         std::uint64_t version = 0;  // of the scene
     };
-    std::optional<Before> before_;  // what was shown last
-    double melting_ = 0.0;          // seconds that are left
+    std::optional<Before> before_;   // what was shown last
+    std::optional<double> melting_;  // for so many seconds
 };
 
 }  // namespace dioptre

@@ -224,6 +224,15 @@ ExpectedErrors::ExpectedErrors(const TradeTable& table, const ViewClass& view) :
         if (curve == curves_.end()) curve = curves_.insert(curves_.end(), {method, {}});
         curve->points.push_back({std::log(static_cast<double>(row.plan.samples.value_or(1))), logError});
     }
+    // A pinhole's picture is the mipmap technique's without its blur: at its best as good.
+    for (Curve& curve : curves_) {
+        if (curve.method.technique != TechniqueChoice::pinhole) continue;
+        Plan blurred = curve.method;
+        blurred.technique = TechniqueChoice::mipmap;
+        for (const Curve& other : curves_)
+            if (other.method == blurred)
+                curve.points.front().logError = std::max(curve.points.front().logError, other.points.front().logError);
+    }
     for (Curve& curve : curves_) {
         std::vector<Point>& p = curve.points;
         std::sort(p.begin(), p.end(), [](const Point& a, const Point& b) { return a.logSamples < b.logSamples; });

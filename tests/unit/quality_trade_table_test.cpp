@@ -153,8 +153,8 @@ TEST(ExpectedErrorsTest, WithLessBlurThanMeasuredPinholesAndSamplesDoBetter) {
         reference{TechniqueChoice::reference, {}, 4, {}};
     EXPECT_LT(less.of(pinhole), 0.7 * least.of(pinhole));
     EXPECT_LT(less.of(reference), 0.7 * least.of(reference));
-    EXPECT_GT(less.of(pinhole), 0.1 * least.of(pinhole)) << "edges stay";
     EXPECT_LE(less.of(mipmap), 1.001 * least.of(mipmap));
+    EXPECT_GE(less.of(pinhole), less.of(mipmap));
     view.meanCocPx = 0.0;
     const double none = ExpectedErrors(small(), view).of(pinhole);
     view.meanCocPx = 0.25;
