@@ -8,6 +8,14 @@
 //   =>                          x_mid = x_eye + f_px s D + f_px (l_eye - l_mid)
 // so straight ahead of the midpoint a point at D lies in the LEFT eye's picture f_px IPD/2 D to the right.
 // The last term is 0 for equal frusta; with a screen at vergence Ds it is -f_px s Ds: the shift vanishes at the screen.
+//
+// What is focused on where several things are in the cone: the one at the median of its area, weighted. Blur is linear in
+// vergence, and the median has the least sum of distances: no other focus blurs the cone less. So
+//   a thin thing (a wire, a pole, a leaf, a fence) that fills less than half of the cone is looked past, whatever is
+//   behind it, the sky too; from half on it is focused on;
+//   of three depths of which none fills half, the middle one is taken: both others blur least from there;
+//   where the neighbours of a hole are one pixel apart, it is none: two eyes' pixels tell no finer.
+// What is seen through (frame/gaze_probe.hpp) is not there at all.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -54,9 +62,10 @@ PixelRegion gazeRegion(const View& eye, const MidpointShift& toMidpoint, glm::dv
                        Dioptres nearest = kNearestGaze);
 
 /// Weighted median of the vergence, Gaussian weights around `gaze` with standard deviations `coneSigma` (pixels in x
-/// and y, taken as half a pixel to 1024 pixels), cut at 2 standard deviations. One eye or two. Samples that are not
-/// finite or < 0 are skipped; so are samples that the midpoint cannot see because a nearer one hides them there. Of an
-/// exact tie the farther one. nullopt if no sample is left, or an argument is not a number.
+/// and y, taken as half a pixel to 1024 pixels), cut at 2 standard deviations. One eye or two, which share the weight of
+/// each pixel of the midpoint view that both know of. Samples that are not finite or < 0 are skipped; so are samples that
+/// the midpoint cannot see because a nearer one hides them there. Of an exact tie the farther one. nullopt if no sample
+/// is left, or an argument is not a number.
 std::optional<Dioptres> gazeVergence(std::span<const EyeVergence> eyes, glm::dvec2 gaze, glm::dvec2 coneSigma);
 
 }  // namespace dioptre

@@ -1,5 +1,10 @@
 // What lies under the gaze: a small depth-only drawing of each eye's region around it, read back either at once or, so
 // that nothing waits, when the GL has finished it.
+//
+// Surfaces that are seen through, texel by texel, each by itself: below the cut-off of an alpha mask nothing is there;
+// alpha-blended ones are there from alpha 0.5 on, where they give more of the pixel's light than all that is behind them,
+// and looked through below that. So a pane of dim glass is focused on, a clean one is not, nor are two clean ones. What
+// fills the cone then: focus/gaze_depth.hpp.
 #pragma once
 
 #include <optional>

@@ -113,6 +113,80 @@ TEST_F(GazeProbeGLTest, MaskedHolesAreLookedThrough) {
     EXPECT_NEAR(seen->value, 0.25, 1e-4);
 }
 
+// Half of what comes from behind decides, for each surface by itself.
+TEST_F(GazeProbeGLTest, PanesAreLookedThroughWhereTheyGiveLessLight) {
+    const auto pane = [](float alpha) {
+        Material m;
+        m.unlit = true;
+        m.doubleSided = true;
+        m.baseColor = glm::vec4(0.3f, 0.5f, 0.9f, alpha);
+        m.alphaMode = AlphaMode::blend;
+        return m;
+    };
+    struct Case {
+        std::vector<float> panes;  // at 1 m, 2 m, ...
+        double sees;               // dioptres
+    };
+    for (const Case& c : {Case{{0.2f}, 0.25},
+                          {{0.45f}, 0.25},
+                          {{0.55f}, 1.0},
+                          {{1.0f}, 1.0},
+                          {{0.3f, 0.4f}, 0.25},
+                          {{0.3f, 0.8f}, 0.5},
+                          {{0.8f, 0.8f}, 1.0}}) {
+        SceneBuilder b;
+        b.wall(4.0, b.unlit(glm::vec3(0.5f)));
+        for (std::size_t i = 0; i < c.panes.size(); ++i)
+            b.wall(static_cast<double>(i) + 1.0, b.material(pane(c.panes[i])));
+        const auto seen = under(GpuScene(b.scene()), {0.5, 0.5});
+        ASSERT_TRUE(seen.has_value());
+        EXPECT_NEAR(seen->value, c.sees, 1e-4) << c.panes.size() << " panes, the first with alpha " << c.panes[0];
+    }
+}
+
+// Leaves by an alpha mask, and leaves of glass: squares on a quarter or three quarters of the surface, smaller than the
+// cone (sigma 2 px here).
+TEST_F(GazeProbeGLTest, FoliageIsLookedThroughUntilItFillsHalfOfTheCone) {
+    for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend})
+        for (const bool dense : {false, true}) {
+            const std::uint8_t there = 230, gone = 20;
+            TextureImage leaves{"leaves", 2, 2, {}};
+            for (int i = 0; i < 4; ++i) {
+                const bool leaf = (i == 0) != dense;
+                leaves.rgba.insert(leaves.rgba.end(), {90, 200, 60, leaf ? there : gone});
+            }
+            SceneBuilder b;
+            b.wall(4.0, b.unlit(glm::vec3(0.5f)));
+            b.textured(leaves);
+            Material m;
+            m.unlit = true;
+            m.doubleSided = true;
+            m.alphaMode = mode;
+            m.baseColorTexture = {0, {.magnification = Filter::nearest, .minification = Filter::nearest}};
+            b.quad(testView(), {0.0, 0.0, 192.0, 144.0}, 1.0, b.material(m), 48.0);  // texels of 2 x 1.5 px
+            const GpuScene scene(b.scene());
+            for (const double x : {0.45, 0.47, 0.5, 0.52}) {
+                const auto seen = under(scene, {x, 0.5});
+                ASSERT_TRUE(seen.has_value());
+                EXPECT_NEAR(seen->value, dense ? 1.0 : 0.25, 1e-4) << (mode == AlphaMode::mask ? "mask" : "blend") << x;
+            }
+        }
+}
+
+// A wire, a pole and a trunk before a wall and before the sky; sigma is 2 px here, half of the cone's weight 2.5 px.
+TEST_F(GazeProbeGLTest, AThinThingIsLookedPastUntilItFillsHalfOfTheCone) {
+    const View head = testView();
+    for (const bool sky : {true, false})
+        for (const double width : {0.4, 1.0, 4.5, 9.0}) {
+            SceneBuilder b;
+            if (!sky) b.wall(5.0, b.unlit(glm::vec3(0.5f)));
+            b.quad(head, {96.0 - 0.5 * width, 0.0, 96.0 + 0.5 * width, 144.0}, 0.5, b.unlit(glm::vec3(1.0f)));
+            const auto seen = under(GpuScene(b.scene()), {0.5, 0.5});
+            ASSERT_TRUE(seen.has_value());
+            EXPECT_NEAR(seen->value, width > 4.0 ? 2.0 : sky ? 0.0 : 0.2, 1e-3) << width << " px";
+        }
+}
+
 TEST_F(GazeProbeGLTest, OutsideThePictureIsNothing) {
     SceneBuilder b;
     b.wall(1.0, b.unlit(glm::vec3(1.0f)));

@@ -143,6 +143,62 @@ TEST(GazeDepthTest, MedianAtAnEdgePicksASideNeverBetween) {
     EXPECT_EQ(last, 1.0);
 }
 
+/// Upright bars at one depth, so wide and so far apart in the midpoint's pixels; the first is around the middle.
+std::vector<Card> bars(double width, double period, double vergence, int each) {
+    const double pixel = 1.0 / focalLengthPixels(headView()).x;
+    std::vector<Card> cards;
+    for (int i = -each; i <= each; ++i) {
+        const double x = i * period;
+        cards.push_back({(x - 0.5 * width) * pixel, (x + 0.5 * width) * pixel, -1.0, 1.0, vergence});
+    }
+    return cards;
+}
+
+// A pole of so much of the cone's area, at once in the middle of the gaze: sigma 4 px, cut at 8 px.
+TEST(GazeDepthTest, APoleIsLookedPastUntilItFillsHalfOfTheCone) {
+    const View head = headView();
+    // The middle 5 px of such a cone hold half of its weight.
+    for (const double vergence : {1.5, 3.0, 6.0})
+        for (const double wall : {0.0, 0.2})
+            for (const double width : {1.0, 2.0, 3.5, 7.5, 12.0}) {
+                const auto found =
+                    look(Metres(0.063), bars(width, 0.0, vergence, 0), wall, pixelAt(head, 0.0, 0.0), 4.0);
+                ASSERT_TRUE(found);
+                EXPECT_EQ(found->value, static_cast<double>(static_cast<float>(width < 5.0 ? wall : vergence)))
+                    << width << " px at " << vergence << " D";
+            }
+}
+
+// A fence: how much of the cone it fills decides, not where it happens to stand, nor how far apart the eyes see it.
+TEST(GazeDepthTest, AFenceIsLookedThroughUntilItFillsHalfOfTheCone) {
+    const View head = headView();
+    struct Fence {
+        double width, period;
+    };
+    for (const double ipd : {0.0, 0.063})
+        for (const double vergence : {2.0, 5.0})
+            for (const Fence fence : {Fence{1.0, 4.0}, {2.0, 8.0}, {2.0, 5.0}, {3.0, 8.0}, {5.0, 8.0}, {6.0, 8.0}})
+                for (double x = 0.0; x < fence.period; x += 0.4) {
+                    const glm::dvec2 gaze = pixelAt(head, 0.0, 0.0) + glm::dvec2(x, 0.0);
+                    const auto found =
+                        look(Metres(ipd), bars(fence.width, fence.period, vergence, 30), 0.25, gaze, 6.0);
+                    ASSERT_TRUE(found);
+                    EXPECT_EQ(found->value, fence.width / fence.period < 0.5 ? 0.25 : vergence)
+                        << fence.width << " of " << fence.period << " px at " << vergence << " D, ipd " << ipd
+                        << ", gaze " << x;
+                }
+}
+
+// None of three fills half of the cone: from the middle one both others blur least.
+TEST(GazeDepthTest, OfThreeDepthsTheMiddleOneBlursLeast) {
+    const View head = headView();
+    const double pixel = 1.0 / focalLengthPixels(head).x;
+    const std::vector<Card> cards = {{-1.0, -1.0 * pixel, -1.0, 1.0, 4.0}, {-1.0 * pixel, 1.0 * pixel, -1.0, 1.0, 1.0}};
+    const auto found = look(Metres(0.0), cards, 0.25, pixelAt(head, 0.0, 0.0), 4.0);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->value, 1.0);
+}
+
 TEST(GazeDepthTest, SlantedSurfaceGivesItsMiddle) {
     const MidpointShift shift{12.0, 0.0};
     std::vector<float> picture;
