@@ -28,7 +28,8 @@ namespace dioptre {
 struct FrameReport {
     double time = 0.0;  // seconds
     GazeSample gaze;
-    std::optional<Dioptres> underGaze;  // measured only where focus follows the gaze, and there is something to measure
+    // Measured only where focus follows the gaze, and there is something to measure; of the frame before with mayLag
+    std::optional<Dioptres> underGaze;
     ResolvedLens lens;
     Plan plan;                         // a refined view's: the reference with the samples that it has
     std::optional<Decision> decision;  // of the governor; none where the settings name a technique
@@ -58,7 +59,8 @@ class FrameMaker {
         double time = 0.0;
         std::optional<GazeSample> gaze;  // overrides trace and setting
         std::optional<Pose> head;        // in the start view's frame; overrides the trace
-        // Depth under the gaze is read when the GL has it, usually a frame late, instead of waiting for it.
+        // Depth under the gaze is read when the GL has it, instead of waiting for it: in the next frame, since each is
+        // finished when make() returns. So focus answers a gaze, its filter aside, one frame late.
         bool mayLag = false;
         // Of the frame, all eyes; 0: the cheapest there is.
         double budgetMilliseconds = 0.0;

@@ -183,6 +183,28 @@ TEST_F(FrameMakerGLTest, AnInstantFilterFollowsAGazeTrace) {
     }
 }
 
+// Read without waiting, the depth is that of the frame before, never of an earlier one; waiting, it is this frame's.
+TEST_F(FrameMakerGLTest, DepthUnderTheGazeIsOneFrameLate) {
+    constexpr double kNear = 2.0, kFar = 0.5;
+    for (const bool mayLag : {false, true}) {
+        FrameMaker maker(leftNearRightFar(), someSettings());
+        double before = kNear;
+        for (int i = 0; i < 12; ++i) {
+            const bool left = i % 3 == 0 || i == 7;
+            FrameMaker::Input input;
+            input.time = 0.1 * i;
+            input.mayLag = mayLag;
+            input.gaze = GazeSample{input.time, {left ? 0.2 : 0.8, 0.8}, true};
+            const FrameReport& report = maker.make(input);
+            const double now = left ? kNear : kFar;
+            // The first frame waits for its own depth; the second has none newer.
+            EXPECT_EQ(report.underGaze.has_value(), !mayLag || i != 1) << "frame " << i;
+            EXPECT_NEAR(report.lens.lens.focus.value, mayLag ? before : now, 1e-3) << "frame " << i;
+            before = now;
+        }
+    }
+}
+
 TEST_F(FrameMakerGLTest, AnInstantFilterFollowsAHeadTrace) {
     // Towards a wall at 2 m, then with a turn to the left by 90 degrees to one at 5 m.
     SceneBuilder b;
