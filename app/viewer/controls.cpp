@@ -92,10 +92,21 @@ void Viewer::listen() {
         viewerOf(w).woken_ = true;
         ImGui_ImplGlfw_WindowFocusCallback(w, focused);
     });
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { viewerOf(w).woken_ = true; });
+    glfwGetCursorPos(window, &pointer_.x, &pointer_.y);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        viewerOf(w).woken_ = true;
+        viewerOf(w).pointerMoved({x, y});
+    });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { viewerOf(w).woken_ = true; });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).woken_ = true; });
     glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { viewerOf(w).woken_ = true; });
+}
+
+/// Events come in order, many of them in a slow frame: of a drag counts all that lies between press and release.
+void Viewer::pointerMoved(glm::dvec2 to) {
+    for (int button = 0; button < 3; ++button)
+        if (glfwGetMouseButton(window_->handle(), button) == GLFW_PRESS) dragged_[button] += to - pointer_;
+    pointer_ = to;
 }
 
 void Viewer::takeWishes(Wish& wish) {
@@ -175,18 +186,21 @@ void Viewer::moveByHand(Wish& wish) {
     const Placement place = picture();
     const bool halves = settings_.view.display == DisplayChoice::sideBySide && settings_.view.eye == EyeChoice::both;
     const double tangentPerPixel = (f.right - f.left) / std::max(1.0, place.width * (halves ? 0.5 : 1.0));
-    const glm::dvec2 moved(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
     bool any = false;
 
-    if (moveLine()) return;
+    if (moveLine()) {
+        std::fill(std::begin(dragged_), std::end(dragged_), glm::dvec2(0.0));
+        return;
+    }
     for (int button = 0; button < 3; ++button) {
+        const glm::dvec2 moved = std::exchange(dragged_[button], glm::dvec2(0.0));
         if (ImGui::IsMouseClicked(button) && !io.WantCaptureMouse) {
             dragging_[button] = true;
             stance_.pivot = stance.pivot = pivot;  // it stays while the button is held
-            continue;
         }
+        const bool drags = dragging_[button];
         if (!ImGui::IsMouseDown(button)) dragging_[button] = false;
-        if (!dragging_[button] || moved == glm::dvec2(0.0)) continue;
+        if (!drags || moved == glm::dvec2(0.0)) continue;
         any = true;
         if (button == ImGuiMouseButton_Middle || (button == ImGuiMouseButton_Left && io.KeyShift))
             stance = pan(stance, glm::dvec2(moved.x, -moved.y) * tangentPerPixel);

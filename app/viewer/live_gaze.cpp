@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -21,7 +22,7 @@ namespace dioptre {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 4096;  // bytes; more is no sample
+constexpr std::size_t kLongestLine = 4096;  // bytes; what has as many is no sample
 
 /// "0.5,0.25,0.75,1"; none where it is anything else.
 std::optional<GazeSample> parseSample(std::string_view line) {
@@ -56,7 +57,7 @@ int openPort(std::string_view port) {
     if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
         const std::string reason = std::strerror(errno);
         if (file >= 0) ::close(file);
-        throw RunError(fmt::format("--gaze-input: UDP port {}: {}", *number, reason));
+        throw InputError(fmt::format("--gaze-input: UDP port {}: {}", *number, reason));
     }
     return file;
 }
@@ -76,7 +77,7 @@ void LiveGaze::add(std::string_view bytes, double now) {
 
 void LiveGaze::take(std::string_view line, double now) {
     if (line.empty() || line.front() == '#') return;
-    const auto sample = parseSample(line);
+    const auto sample = line.size() < kLongestLine ? parseSample(line) : std::nullopt;
     // A clock that goes back by more than that was started anew.
     constexpr double kRestart = 1.0;
     const double back = sample && latest_ ? latest_->time - sample->time : 0.0;
@@ -84,15 +85,21 @@ void LiveGaze::take(std::string_view line, double now) {
         ++refused_;
         return;
     }
-    if (back > kRestart) offset_.reset();
+    if (back > kRestart) span_.reset(), before_.reset();
     latest_ = sample;
     arrived_ = now;
-    offset_ = std::min(offset_.value_or(now - sample->time), now - sample->time);
+    // The least of this span of time and of the one before: a clock that jumped or drifts is believed again soon.
+    constexpr double kSpan = 2.0;  // seconds
+    const double took = now - sample->time;
+    if (span_ && now - span_->begin > kSpan) before_ = std::exchange(span_, std::nullopt);
+    if (!span_) span_ = {now, took};
+    span_->least = std::min(span_->least, took);
+    offset_ = before_ ? std::min(before_->least, span_->least) : span_->least;
 }
 
 GazeSample LiveGaze::at(double now) const {
     if (!latest_) return {now, {0.5, 0.5}, false};
-    const bool fresh = now - (latest_->time + *offset_) < kDropout;
+    const bool fresh = now - (latest_->time + offset_) < kDropout;
     return {now, latest_->position, latest_->valid && fresh};
 }
 
@@ -113,14 +120,19 @@ GazeInput::~GazeInput() {
 }
 
 void GazeInput::read(double now) {
+    // More than a pipe or a socket holds, so that what is newest is never left waiting; but a source that is faster than
+    // we are must not keep the window waiting.
+    constexpr std::size_t kMostBytes = std::size_t{1} << 18;
+    constexpr int kMostReads = 1024;
     std::array<char, 65536> bytes{};
-    // A source that is faster than we are must not keep the window waiting.
-    for (int i = 0; i < 64 && !ended_; ++i) {
+    std::size_t taken = 0;
+    for (int i = 0; i < kMostReads && taken < kMostBytes && !ended_; ++i) {
         pollfd ready{file_, POLLIN, 0};
         if (::poll(&ready, 1, 0) <= 0) return;
         const ssize_t count = ::read(file_, bytes.data(), bytes.size());
         if (count < 0) return;
         ended_ = count == 0 && !datagrams_;
+        taken += static_cast<std::size_t>(count);
         gaze_.add({bytes.data(), static_cast<std::size_t>(count)}, now);
         if (datagrams_) gaze_.endLine(now);
     }

@@ -14,7 +14,8 @@ namespace dioptre {
 class LiveGaze {
   public:
     /// Bytes as they came, cut anywhere; `now` in seconds, by our clock. Lines that are no samples are counted and passed
-    /// over, so is a sample that is older than one before it.
+    /// over, so is a sample that is older than one before it. A tracker's clock may start anywhere, run a little too fast
+    /// or too slow, jump, and start anew.
     void add(std::string_view bytes, double now);
     /// After a datagram: what it ended with is a whole line.
     void endLine(double now) { add("\n", now); }
@@ -34,21 +35,25 @@ class LiveGaze {
     std::string rest_;  // of a line
     std::optional<GazeSample> latest_;
     double arrived_ = 0.0;
-    // Between the tracker's clock and ours: the least that a sample took to come.
-    std::optional<double> offset_;
+    // Between the tracker's clock and ours: the least that a sample took to come, of late. More than that is its age.
+    double offset_ = 0.0;
+    struct Span {
+        double begin = 0.0, least = 0.0;  // seconds
+    };
+    std::optional<Span> span_, before_;
     std::size_t refused_ = 0;
 };
 
 /// Where samples come from: "stdin" or "udp:PORT".
 class GazeInput {
   public:
-    /// InputError for anything else, RunError where the port is not free.
+    /// InputError for anything else, and where the port is not free.
     explicit GazeInput(const std::string& source);
     ~GazeInput();
     GazeInput(const GazeInput&) = delete;
     GazeInput& operator=(const GazeInput&) = delete;
 
-    /// What came since the last call; does not wait.
+    /// What came since the last call; does not wait, nor take all of a source that never ends.
     void read(double now);
     const LiveGaze& gaze() const { return gaze_; }
 

@@ -31,6 +31,11 @@ constexpr double kSecondsUntilStill = 1.5;
 constexpr double kArrived = 0.01;  // dioptres
 constexpr double kSurveySeconds = 0.5;
 
+/// What is wrong with it is said before a window opens.
+std::unique_ptr<GazeInput> openGazeInput(const Command& command) {
+    return command.gazeInput.empty() ? nullptr : std::make_unique<GazeInput>(command.gazeInput);
+}
+
 std::unique_ptr<Window> openWindow(const Settings& settings, SceneLoader& loader) {
     const ViewSettings& view = settings.view;
     const PictureSize size = composedSize(view.eye == EyeChoice::both ? view.display : DisplayChoice::mono, view.size);
@@ -47,9 +52,9 @@ std::unique_ptr<Window> openWindow(const Settings& settings, SceneLoader& loader
 Viewer::Viewer(const Command& command)
     : command_(command),
       settings_(command.settings),
+      gazeInput_(openGazeInput(command)),
       window_((loader_.load(command), openWindow(settings_, loader_))),
       gui_(window_->handle()) {
-    if (!command.gazeInput.empty()) gazeInput_ = std::make_unique<GazeInput>(command.gazeInput);
     listen();
     refreshMs_ = window_->refreshMilliseconds();
 }
@@ -57,12 +62,17 @@ Viewer::Viewer(const Command& command)
 Viewer::~Viewer() = default;
 
 std::vector<FrameReport> Viewer::run() {
-    while (!closing()) {
-        if (waitForWork()) frame();
+    while (step()) {
     }
     finishRecording();
     glfwHideWindow(window_->handle());  // a scene that is still being loaded may take a while
     return std::move(log_);
+}
+
+bool Viewer::step() {
+    if (closing()) return false;
+    if (waitForWork()) frame();
+    return !closing();
 }
 
 bool Viewer::closing() const {
@@ -131,6 +141,7 @@ void Viewer::frame() {
     }
     gui_.end();
     glfwSwapBuffers(window_->handle());
+    ++drawn_.frames;
     showTitle();
 }
 
@@ -264,6 +275,7 @@ void Viewer::makePicture(const FrameMaker::Input& input) {
     maker.timeStages(panelOpen_ && instruments_.timesStages());
     report_ = &maker.make(input);
     pictureMade_ = true;
+    ++drawn_.pictures;
     if (panelOpen_) framesToDraw_ = std::max(framesToDraw_, 1);  // its numbers are of this one
     ++stillFrames_;
     lastInput_ = input;

@@ -38,6 +38,14 @@ class Viewer {
     /// Until the window is closed; what was shown, where a log is asked for. Throws what is wrong with the first scene:
     /// there is nothing to go on with.
     std::vector<FrameReport> run();
+    /// One turn of that: sleeps while there is nothing to do, then draws at most one frame; false once it is closed.
+    bool step();
+
+    /// How many frames the window showed, and how many pictures were made for them.
+    struct Drawn {
+        int frames = 0, pictures = 0;
+    };
+    const Drawn& drawn() const { return drawn_; }
 
   private:
     /// What was asked for since the last frame.
@@ -68,6 +76,7 @@ class Viewer {
     void say(const std::string& text);
 
     // Controls
+    void pointerMoved(glm::dvec2 to);
     void act(Action action, Wish& wish);
     void moveByHand(Wish& wish);
     bool moveLine();
@@ -94,9 +103,9 @@ class Viewer {
     Command command_;
     Settings settings_;
     SceneLoader loader_;
+    std::unique_ptr<GazeInput> gazeInput_;  // none: the pointer
     std::unique_ptr<Window> window_;
     Gui gui_;
-    std::unique_ptr<GazeInput> gazeInput_;  // none: the pointer
     std::unique_ptr<Show> show_;
     SettingsHistory history_;
     Panel panel_;
@@ -109,6 +118,7 @@ class Viewer {
     bool panelOpen_ = false, keyListOpen_ = false;
     std::vector<FrameReport> log_;
     const FrameReport* report_ = nullptr;
+    Drawn drawn_;
 
     // Input since the last frame
     std::vector<Action> actions_;
@@ -116,6 +126,7 @@ class Viewer {
     bool woken_ = true;
     int framesToDraw_ = 0;  // of the window, though the picture may be the same
     bool dragging_[3] = {};
+    glm::dvec2 pointer_{0.0}, dragged_[3] = {};  // pixels, while each button was down
     Stance stance_;
     double lastFrame_ = 0.0;
 

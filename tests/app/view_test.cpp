@@ -1,5 +1,7 @@
 // dioptre view in a window of a display in memory; skipped where Xvfb, xdotool or openbox is missing.
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <cmath>
@@ -295,13 +297,19 @@ xdotool key F12; there dioptre-0002.json
     EXPECT_EQ(dragged.view.display, DisplayChoice::sideBySide);
 }
 
+// As the system counts it. tests/window asks whether it draws, in frames.
 TEST_F(ViewTest, AStillViewSleeps) {
     const Outcome outcome = view(R"(
 xdotool mousemove --window "$window" 40 60
-sleep 3
 ticks() { set -- $(cat /proc/$program/stat); shift 13; echo $(($1 + $2)); }
-before=$(ticks); sleep 4; after=$(ticks)
-echo $((100 * (after - before) / (4 * $(getconf CLK_TCK))))
+percent() { # of a core, in so many seconds
+    before=$(ticks); sleep $1; after=$(ticks)
+    echo $((100 * (after - before) / ($1 * $(getconf CLK_TCK))))
+}
+for try in $(seq 60); do # until it is refined, which takes what the machine lets it take
+    [ $(percent 1) -ge 5 ] || break
+done
+percent 5
 )",
                                  "scene.gltf --technique mipmap");
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
@@ -313,16 +321,48 @@ TEST_F(ViewTest, ATrackerLeadsTheGaze) {
     const Outcome outcome =
         view(R"(
 xdotool mousemove --window "$window" 300 10
-for i in $(seq 40); do
+for i in $(seq 2000); do
     printf '%s.0,0.25,0.5,1\nbroken\n' "$i" > samples
-    sleep 0.05
+    xdotool getwindowname "$window" | grep -q -F 'focus 2.5' && break
+    sleep 0.02
 done
+title 'focus 2.5'
 sleep 1
 xdotool key F12; there dioptre-0001.json
 )",
              "scene.gltf --technique mipmap --gaze-input stdin <>samples", false, "mkfifo samples\n");
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    // The title tells two digits; what moved there goes on to arrive.
     EXPECT_NEAR(settingsIn("dioptre-0001.json").focus.focus.metres, 0.4, 0.01) << "of the square at the gaze";
+}
+
+TEST_F(ViewTest, AnEndlessTrackerDoesNotKeepTheWindowWaiting) {
+    // As fast as they can be made, garbage between them
+    const Outcome outcome = view(R"(
+xdotool mousemove --window "$window" 300 10
+title 'focus 2.5'
+xdotool key F12; there dioptre-0001.json
+)",
+                                 "scene.gltf --technique mipmap --gaze-input stdin <samples", false, R"(mkfifo samples
+awk 'BEGIN { for (t = 0; ; t += 0.001) printf "nonsense\n%.3f,0.25,0.5,1\n,,\n", t }' > samples 2>/dev/null &
+)");
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_NEAR(settingsIn("dioptre-0001.json").focus.focus.metres, 0.4, 0.01);
+}
+
+TEST_F(ViewTest, APortInUseIsRefusedBeforeAWindowOpens) {
+    const int taken = ::socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(::bind(taken, reinterpret_cast<const sockaddr*>(&address), size), 0);
+    ASSERT_EQ(::getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    const std::string port = std::to_string(ntohs(address.sin_port));
+    expectRefused(run({"view", "scene.gltf", "--gaze-input", "udp:" + port}),
+                  {"--gaze-input: UDP port " + port, "in use"});
+    ::close(taken);
+    expectRefused(run({"view", "scene.gltf", "--gaze-input", "udp:70000"}), {"--gaze-input", "70000", "1..65535"});
 }
 
 TEST_F(ViewTest, FullScreenAndBack) {
