@@ -31,7 +31,8 @@ class Source {
             if (event.type == SelectionRequest) answer(event.xselectionrequest);
             if (event.type != ClientMessage) continue;
             if (event.xclient.message_type == atom("XdndStatus")) send("XdndDrop", 0, CurrentTime, 0, 0);
-            if (event.xclient.message_type == atom("XdndFinished")) return (event.xclient.data.l[1] & 1) != 0;
+            // Bit 0 says whether it was taken; GLFW 3.3 puts the number of bytes there.
+            if (event.xclient.message_type == atom("XdndFinished")) return event.xclient.data.l[1] != 0;
         }
     }
 

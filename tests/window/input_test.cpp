@@ -1,0 +1,110 @@
+// From what a hand does to what the window shows: counted in frames, which no clock and no busy machine changes.
+#include <chrono>
+#include <ctime>
+
+#include "window_fixture.hpp"
+
+namespace dioptre::test {
+namespace {
+
+class InputTest : public WindowTest {
+  protected:
+    /// Frames that a still view draws until what it shows is another; a hundred where it stays the same.
+    static int framesUntilShown(ViewerDriver& driver, const std::string& input) {
+        driver.settle();
+        const auto before = driver.shown();
+        const int first = driver.viewer.drawn().frames;
+        driver.xdotool(input);
+        for (int turns = 0; turns < 20; ++turns) {
+            driver.turn();
+            const int frames = driver.viewer.drawn().frames - first;
+            if (frames > 0 && driver.shown() != before) return frames;
+        }
+        return 100;
+    }
+};
+
+TEST_F(InputTest, ReachesThePictureWithinTwoFrames) {
+    ViewerDriver driver(viewCommand("scene.gltf"));
+    struct Case {
+        const char* what;
+        const char* input;
+        int frames;
+    };
+    for (const Case& c : {
+             Case{"a key that flies", "key w", 1},
+             {"another", "key d", 1},
+             {"the wheel", "click 4", 1},
+             {"back to the camera", "key Home", 1},
+             {"press and pull in one frame", "mousedown 3 mousemove_relative 20 0", 1},
+             {"going on", "mousemove_relative 0 15", 1},
+             {"let go while it still moves", "mousemove_relative 0 15 mouseup 3", 1},
+             {"press, pull and let go in one frame", "mousedown 1 mousemove_relative 12 0 mouseup 1", 1},
+             {"another display", "key v", 1},
+             {"eyes change places", "key x", 1},
+             {"taken back", "key ctrl+z", 1},
+             {"and made again", "key ctrl+y", 1},
+             {"a window of another size", "windowsize $W 400 300", 1},
+             {"the list of keys", "key F1", 2},
+             {"and away", "key F1", 2},
+             {"settings", "key F2", 2},
+         })
+        EXPECT_LE(framesUntilShown(driver, c.input), c.frames) << c.what;
+}
+
+// The depth is read a frame late, and then answered: with a filter that does not wait, the second frame shows it.
+TEST_F(InputTest, TheGazeReachesTheFocusInTheSecondFrame) {
+    Command command = viewCommand("scene.gltf");
+    command.settings.lens.apertureMm = 8.0;
+    ViewerDriver driver(command);
+    for (const char* place : {"40 60", "140 60", "45 65", "150 20"})
+        EXPECT_EQ(framesUntilShown(driver, std::string("mousemove --window $W ") + place), 2) << place;
+}
+
+// Typed, as a whole line; one key more takes it over.
+TEST_F(InputTest, AnEditInThePanelReachesThePictureWithinTwoFrames) {
+    Command command = viewCommand("scene.gltf");
+    command.settings.lens.apertureMm = 8.0;
+    ViewerDriver driver(command);
+    driver.xdotool("windowsize $W 640 240 key ctrl+f");
+    driver.settle();
+    for (const char* edit : {"technique pinhole", "technique mipmap", "exposure-ev 2", "show vergence", "show none"}) {
+        driver.xdotool(std::string("key ctrl+f"));
+        driver.settle();
+        driver.xdotool(std::string("type --delay 0 '") + edit + "'");
+        EXPECT_LE(framesUntilShown(driver, "key Return"), 2) << edit;
+    }
+}
+
+TEST_F(InputTest, AStillViewStopsDrawingAndSleeps) {
+    struct Case {
+        const char* what;
+        bool automatic, panel;
+    };
+    for (const Case& c : {Case{"one technique", false, false},
+                          {"refined by the governor", true, false},
+                          {"with the panel", false, true}}) {
+        Command command = viewCommand("scene.gltf");
+        if (c.automatic) command.settings.render.technique.reset();
+        ViewerDriver driver(command);
+        if (c.panel) driver.xdotool("windowsize $W 640 400 key F2");
+        driver.settle();
+
+        // Of the processor, so that nothing else on the machine counts
+        const auto processor = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+        const Viewer::Drawn before = driver.viewer.drawn();
+        const double used = processor();
+        const auto begin = std::chrono::steady_clock::now();
+        double seconds = 0.0;
+        while (seconds < 3.0) {
+            driver.turn();
+            seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        }
+        EXPECT_LT((processor() - used) / seconds, 0.05) << c.what;
+        EXPECT_EQ(driver.viewer.drawn().frames, before.frames) << c.what;
+        EXPECT_EQ(driver.viewer.drawn().pictures, before.pictures) << c.what;
+    }
+}
+
+}  // namespace
+}  // namespace dioptre::test
