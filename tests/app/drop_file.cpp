@@ -19,6 +19,12 @@ class Source {
         send("XdndPosition", 0, 0, CurrentTime, static_cast<long>(atom("XdndActionCopy")));
     }
 
+    ~Source() {
+        if (display_) XCloseDisplay(display_);
+    }
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+
     /// Answers the target until it has taken the file; false if it does not.
     bool run() {
         constexpr int kMilliseconds = 5000;
