@@ -16,6 +16,7 @@ Scene loadScene(const Command& command, const std::function<void(double)>& progr
     limits.maxTotalBytes = static_cast<std::uint64_t>(command.settings.system.maxSceneMb) << 20;
     limits.maxImageSide = command.settings.system.maxTextureSide;
     BuiltinOptions making;
+    making.loaded = progress;
     if (progress)
         making.done = [&progress](std::size_t done, std::size_t parts) {
             progress(static_cast<double>(done) / static_cast<double>(parts));

@@ -6,20 +6,37 @@
 
 namespace dioptre {
 
+namespace {
+
+// Thrown out of a load that nobody wants any more. No std::exception: nothing that handles errors may take it for one.
+struct Unwanted {};
+
+}  // namespace
+
+SceneLoader::~SceneLoader() {
+    if (progress_) progress_->unwanted = true;
+}
+
 void SceneLoader::load(const Command& command) {
     name_ = command.scene.empty() ? "builtin:studio" : command.scene;
     began_ = nowMilliseconds();
-    if (running())
-        next_ = command;
-    else
-        start(command);
+    if (!running()) return start(command);
+    progress_->unwanted = true;
+    next_ = command;
 }
 
 void SceneLoader::start(const Command& command) {
-    share_ = std::make_shared<std::atomic<double>>(0.0);
-    loading_ = std::async(std::launch::async, [command, share = share_] {
-        return loadScene(command, [&share](double done) { share->store(done); });
+    progress_ = std::make_shared<Progress>();
+    loading_ = std::async(std::launch::async, [command, progress = progress_] {
+        return loadScene(command, [&progress](double share) {
+            if (progress->unwanted) throw Unwanted();
+            progress->share = share;
+        });
     });
+}
+
+bool SceneLoader::ready() const {
+    return running() && !next_ && loading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 double SceneLoader::seconds() const {

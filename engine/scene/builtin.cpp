@@ -59,11 +59,11 @@ struct Cached {
     std::string problem;
 };
 
-Cached readCached(const fs::path& path) {
+Cached readCached(const fs::path& path, const BuiltinOptions& options) {
     // Its checksum is taken while it is loaded.
     auto whole = std::async(std::launch::async, [&path] { return checksumHolds(path); });
     try {
-        Scene scene = loadGltf(path);
+        Scene scene = loadGltf(path, {}, options.loaded);
         if (whole.get()) return {std::move(scene), {}};
         return {std::nullopt, fmt::format("{}: its checksum is wrong", path.string())};
     } catch (const InputError& error) {
@@ -116,11 +116,11 @@ fs::path cacheFolder() {
 }
 
 Scene loadBuiltin(const std::string& name, const fs::path& folder, const BuiltinOptions& given) {
-    if (name == kStudio) return loadGltf(resource(kStudioFile));
+    if (name == kStudio) return loadGltf(resource(kStudioFile), {}, given.loaded);
     const fs::path path = folder / fmt::format("{}-v{}.glb", name, kGeneratorVersion);
     std::error_code error;
     if (!folder.empty() && fs::exists(path, error)) {
-        Cached cached = readCached(path);
+        Cached cached = readCached(path, given);
         if (cached.scene) {
             cached.scene->name = name;
             return std::move(*cached.scene);
@@ -141,7 +141,7 @@ Scene loadBuiltin(const std::string& name, const fs::path& folder, const Builtin
         return made;
     }
     made = {};
-    Cached cached = readCached(path);
+    Cached cached = readCached(path, given);
     if (!cached.scene) throw RunError(cached.problem);
     cached.scene->name = name;
     return std::move(*cached.scene);

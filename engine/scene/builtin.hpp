@@ -26,6 +26,7 @@ struct BuiltinOptions {
     float detail = 1.0f;                                      // < 1: fewer triangles, smaller pictures
     unsigned threads = 0;                                     // 0: as many as there are
     std::function<void(std::size_t, std::size_t)> done = {};  // parts finished, of so many
+    std::function<void(double)> loaded = {};                  // share of its file, 0..1, once there is one
 };
 
 /// Makes a scene; the same, to the byte, at any number of threads. Not for the studio, which is a file.
