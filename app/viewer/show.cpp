@@ -15,7 +15,7 @@ void Show::change(const Settings& settings) {
 
 void Show::wantLevels() {
     if (!maker_.mayUseLevels() || levels_ || haveLevels_) return;
-    levels_ = std::make_unique<LodBuilder>(scene_, LodOptions{lodFolder()});
+    levels_ = std::make_unique<LodBuilder>(scene_, LodOptions{.folder = lodFolder(), .background = true});
 }
 
 bool Show::takeLevels() {

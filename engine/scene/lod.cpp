@@ -1,6 +1,7 @@
 #include "scene/lod.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -23,6 +24,9 @@
 namespace dioptre {
 
 namespace fs = std::filesystem;
+
+// Of threads in the background: a tenth of what a window's thread gets.
+static constexpr int kBackgroundNice = 10;
 
 bool hasLods(const Primitive& primitive) {
     return primitive.triangleCount() > kFewestTriangles && !primitive.deformation;
@@ -112,7 +116,12 @@ LodBuilder::State::State(const Scene& scene, const LodOptions& options)
     running_ = count;
     threads_.reserve(count);
     try {
-        for (std::size_t t = 0; t < count; ++t) threads_.emplace_back([this] { work(); });
+        for (std::size_t t = 0; t < count; ++t)
+            threads_.emplace_back([this, background = options.background] {
+                // Linux: of this thread alone
+                if (background) ::setpriority(PRIO_PROCESS, 0, kBackgroundNice);
+                work();
+            });
     } catch (const std::system_error&) {
         // As many as there are do it, too.
         const std::lock_guard lock(mutex_);

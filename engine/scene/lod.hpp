@@ -23,6 +23,7 @@ struct BuiltLevel {
 struct LodOptions {
     std::filesystem::path folder = {};  // of the cache, made if it is missing; empty: none
     unsigned threads = 0;               // 0: as many as there are
+    bool background = false;            // they let whatever else runs go first
 };
 
 /// Whether a primitive may have levels: enough triangles, no deformation. What bends is level 0 alone.
