@@ -30,7 +30,7 @@ bool FrameMaker::unseenNow(const Input& input) {
 
 Decision FrameMaker::decide(const Input& input, bool unseen) {
     const Decision decision = planner_->decide({scene_, eyes_, report_.lens.lens, input.time, input.budgetMilliseconds,
-                                                brightest_ > 1.0, unseen, input.alone});
+                                                input.refineMilliseconds, brightest_ > 1.0, unseen, input.alone});
     for (const Omission& omission : planner_->requirements().omitted) report_.passes.skip(omission.what, omission.why);
     return decision;
 }

@@ -152,6 +152,9 @@ void FrameMaker::change(const Scene& scene, const Settings& settings) {
     std::vector<HeadSample> headTrace;
     if (after.gazeTrace != before.gazeTrace && !after.gazeTrace.empty()) gazeTrace = readGazeTrace(after.gazeTrace);
     if (after.headTrace != before.headTrace && !after.headTrace.empty()) headTrace = readHeadTrace(after.headTrace);
+    const auto plan = planOf(settings.render), planBefore = planOf(settings_.render);
+    std::optional<FramePlanner> planner;
+    if (!plan && !planner_) planner.emplace();
 
     start_ = start;
     camera_.reset();
@@ -162,7 +165,6 @@ void FrameMaker::change(const Scene& scene, const Settings& settings) {
     if (after.headTrace != before.headTrace) headTrace_ = std::move(headTrace);
     if (after.dynamics != before.dynamics)
         filter_ = FocusFilter(focusPreset(dynamicsName(after.dynamics)), filter_.focus());
-    const auto plan = planOf(settings.render), planBefore = planOf(settings_.render);
     const bool otherWay =
         plan.has_value() != planBefore.has_value() || (plan && plan->technique != planBefore->technique);
     if (otherWay || drawsBothEyes(settings.view) != drawsBothEyes(settings_.view)) {
@@ -176,8 +178,8 @@ void FrameMaker::change(const Scene& scene, const Settings& settings) {
     named_ = plan.value_or(Plan());
     if (plan)
         planner_.reset();
-    else if (!planner_)
-        planner_.emplace();
+    else if (planner)
+        planner_ = std::move(planner);
     brightest_ = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
     settings_ = settings;
 }

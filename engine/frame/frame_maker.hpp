@@ -64,6 +64,8 @@ class FrameMaker {
         bool mayLag = false;
         // Of the frame, all eyes; 0: the cheapest there is.
         double budgetMilliseconds = 0.0;
+        // More than that for a frame that refines a view which nobody is about to move.
+        double refineMilliseconds = 0.0;
         // A named technique that averages samples draws as many as fit into the budget and goes on with them in the
         // next frames while the view stands still. What the governor chooses does so always.
         bool refines = false;
@@ -87,7 +89,7 @@ class FrameMaker {
     void addLevels(const std::vector<BuiltLevel>& levels);
 
     /// Other settings from the next frame on, for the scene that it was made with; focus goes on from where it is.
-    /// InputError changes nothing.
+    /// What throws (InputError, also of a broken trade table) changes nothing.
     void change(const Scene& scene, const Settings& settings);
 
     /// The last frame: read back, linear; or shown in a part of the window's framebuffer (Compositor::present).

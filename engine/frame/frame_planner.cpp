@@ -65,6 +65,7 @@ Decision FramePlanner::decide(const Moment& moment) {
     Situation s;
     s.now = moment.now;
     s.budgetMs = moment.budgetMs;
+    s.refineMs = moment.refineMs;
     s.lastMs = std::exchange(lastMs_, std::nullopt);
     s.lastRefined = lastRefined_;
     s.view = classOf(facts, static_cast<double>(all.triangles), static_cast<double>(view.width) * view.height,

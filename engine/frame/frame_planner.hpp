@@ -26,6 +26,7 @@ class FramePlanner {
         const Lens& lens;
         double now = 0.0;       // seconds
         double budgetMs = 0.0;  // of all eyes
+        double refineMs = 0.0;  // the same, of a frame that refines a still view, where that is more
         bool highlights = false;
         bool unseen = false;  // a saccade or a blink
         bool alone = false;   // no frame follows

@@ -264,7 +264,7 @@ Decision Governor::decision(const Candidates& candidates, const Situation& s, Mo
     refined_.reset();
     if (s.requirements.mayRefine && !s.unseen) {
         const Plan reference{TechniqueChoice::reference, {}, {}, {}};
-        if (const auto now = candidates.within(reference, kTarget * s.budgetMs, 1.0, 1)) {
+        if (const auto now = candidates.within(reference, kTarget * std::max(s.budgetMs, s.refineMs), 1.0, 1)) {
             refined_ = now->plan;
             d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, *now->plan.samples,
                             now->milliseconds, candidates.samplesToReach(*current_)};

@@ -222,6 +222,19 @@ TEST_F(QuietTest, AStillViewMayGoOnWithTheReference) {
     EXPECT_FALSE(frame().refinement.has_value());
 }
 
+TEST_F(QuietTest, RefiningMayTakeLongerThanAFrame) {
+    situation.requirements.mayRefine = true;
+    // Not even one sample fits into a frame.
+    situation.budgetMs = 0.5 * priceOf({TechniqueChoice::reference, {}, 1, {}});
+    EXPECT_FALSE(frames(50).refinement.has_value());
+    const Plan before = frame().plan;
+    situation.refineMs = 10.0 * situation.budgetMs;
+    const Decision d = frame();
+    ASSERT_TRUE(d.refinement.has_value());
+    EXPECT_LE(priceOf({TechniqueChoice::reference, {}, d.refinement->samplesNow, {}}), 0.9 * situation.refineMs);
+    EXPECT_EQ(d.plan, before) << "what is drawn where something moves keeps to the budget";
+}
+
 TEST_F(QuietTest, WhatRefinesTeachesThePriceOfTheReference) {
     situation.requirements.mayRefine = true;
     frames(60);
