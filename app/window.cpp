@@ -3,8 +3,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <vector>
-
 #include "core/error.hpp"
 
 namespace dioptre {
@@ -50,26 +48,49 @@ double Window::refreshMilliseconds() const {
     return 1000.0 / (mode && mode->refreshRate > 0 ? mode->refreshRate : kUsual);
 }
 
-void Window::toggleFullScreen() {
-    GLFWwindow* window = window_.get();
-    if (glfwGetWindowMonitor(window)) {
-        glfwSetWindowMonitor(window, nullptr, before_.x, before_.y, before_.width, before_.height, GLFW_DONT_CARE);
-        return;
-    }
-    glfwGetWindowPos(window, &before_.x, &before_.y);
-    glfwGetWindowSize(window, &before_.width, &before_.height);
+DesktopBox Window::box() const {
+    DesktopBox box;
+    glfwGetWindowPos(window_.get(), &box.x, &box.y);
+    glfwGetWindowSize(window_.get(), &box.width, &box.height);
+    return box;
+}
+
+std::vector<Monitor> Window::monitors() const {
     int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    std::vector<DesktopBox> boxes;
+    GLFWmonitor** handles = glfwGetMonitors(&count);
+    std::vector<Monitor> monitors;
     for (int i = 0; i < count; ++i) {
-        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
-        DesktopBox& box = boxes.emplace_back();
-        glfwGetMonitorPos(monitors[i], &box.x, &box.y);
-        if (mode) box = {box.x, box.y, mode->width, mode->height};
+        const GLFWvidmode* mode = glfwGetVideoMode(handles[i]);
+        const char* name = glfwGetMonitorName(handles[i]);
+        Monitor& monitor = monitors.emplace_back(Monitor{name ? name : "", {}});
+        glfwGetMonitorPos(handles[i], &monitor.box.x, &monitor.box.y);
+        if (!mode) continue;
+        monitor.box.width = mode->width;
+        monitor.box.height = mode->height;
     }
-    if (boxes.empty()) return;
-    const std::size_t best = monitorOf(before_, boxes);
-    glfwSetWindowMonitor(window, monitors[best], 0, 0, boxes[best].width, boxes[best].height, GLFW_DONT_CARE);
+    return monitors;
+}
+
+bool Window::isFullScreen() const {
+    return glfwGetWindowMonitor(window_.get()) != nullptr;
+}
+
+bool Window::fillMonitor(const std::string& nameOrNumber) {
+    const std::vector<Monitor> connected = monitors();
+    const auto meant = findMonitor(nameOrNumber, connected);
+    if (!isFullScreen()) before_ = box();
+    const std::size_t chosen = meant.value_or(monitorOf(box(), connected));
+    int count = 0;
+    GLFWmonitor** handles = glfwGetMonitors(&count);
+    if (chosen < static_cast<std::size_t>(count)) {
+        const DesktopBox& all = connected[chosen].box;
+        glfwSetWindowMonitor(window_.get(), handles[chosen], 0, 0, all.width, all.height, GLFW_DONT_CARE);
+    }
+    return meant || nameOrNumber.empty();
+}
+
+void Window::leaveFullScreen() {
+    glfwSetWindowMonitor(window_.get(), nullptr, before_.x, before_.y, before_.width, before_.height, GLFW_DONT_CARE);
 }
 
 }  // namespace dioptre

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gl/context.hpp"
 #include "viewer/monitor.hpp"
@@ -20,8 +21,14 @@ class Window final : public Context {
 
     /// Of the first screen; 60 Hz where it does not say.
     double refreshMilliseconds() const;
-    /// To all of the monitor that shows most of it, and back to where it was.
-    void toggleFullScreen();
+    /// Those that are connected.
+    std::vector<Monitor> monitors() const;
+    bool isFullScreen() const;
+    /// To all of a monitor (findMonitor); where that is not there, or none is named, of the one that shows most of the
+    /// window. False: it is not there.
+    bool fillMonitor(const std::string& nameOrNumber);
+    /// Back to where it was.
+    void leaveFullScreen();
 
   private:
     struct Library {
@@ -35,6 +42,8 @@ class Window final : public Context {
     };
     Library library_;
     std::unique_ptr<GLFWwindow, Close> window_;
+    DesktopBox box() const;
+
     DesktopBox before_;  // full screen
 };
 

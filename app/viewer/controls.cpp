@@ -1,4 +1,4 @@
-// Keys, mouse, panel and files: what each does to the viewer.
+// Keys and mouse: what each does to the viewer.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -7,16 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "backends/imgui_impl_glfw.h"
-#include "core/error.hpp"
-#include "core/file.hpp"
-#include "core/log.hpp"
-#include "core/resources.hpp"
 #include "core/text.hpp"
-#include "viewer/sharp_range.hpp"
 #include "viewer/viewer.hpp"
 
 namespace dioptre {
@@ -26,25 +20,10 @@ namespace {
 constexpr double kOrbitPerPixel = 0.006;  // radians: half a turn for 500 px
 constexpr double kFast = 5.0;             // times, with Shift
 constexpr double kLongestStep = 0.1;      // s: after a nap nobody has flown on
-// Where a screen stands that was never measured: a desktop's, one eye's picture half of it.
-constexpr double kScreenWidthMm = 300.0, kScreenDistanceMm = 650.0;
 
 std::array<double, 7> poseNumbers(const Pose& pose) {
     const auto& [p, q] = pose;
     return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
-}
-
-/// A screen has a width and a distance: with the first of them comes the other, and they go together.
-void completeScreen(const ViewSettings& before, ViewSettings& after) {
-    if (after.screenWidthMm.has_value() == after.screenDistanceMm.has_value()) return;
-    const bool went = before.screenWidthMm && before.screenDistanceMm;
-    if (went) {
-        after.screenWidthMm.reset();
-        after.screenDistanceMm.reset();
-    } else {
-        if (!after.screenWidthMm) after.screenWidthMm = kScreenWidthMm;
-        if (!after.screenDistanceMm) after.screenDistanceMm = kScreenDistanceMm;
-    }
 }
 
 Viewer& viewerOf(GLFWwindow* window) {
@@ -135,8 +114,7 @@ void Viewer::act(Action action, Wish& wish) {
             panel_.search();
             return;
         case Action::fullScreen:
-            window_->toggleFullScreen();
-            return;
+            return toggleFullScreen();
         case Action::picture:
             return beginPicture();
         case Action::record:
@@ -154,6 +132,13 @@ void Viewer::act(Action action, Wish& wish) {
         case Action::swapEyes:
             view.swapEyes = !view.swapEyes;
             break;
+        case Action::compare:
+            split_.compareWithNext();
+            stillFrames_ = 0;
+            return;
+        case Action::difference:
+            split_.toggleDifference();
+            return;
         case Action::fitSize:
             fitSize(wish.settings);
             break;
@@ -174,6 +159,16 @@ void Viewer::act(Action action, Wish& wish) {
             return;
     }
     wish.edit = true;
+}
+
+void Viewer::toggleFullScreen() {
+    if (window_->isFullScreen()) return window_->leaveFullScreen();
+    fillMonitor(settings_.system.monitor);
+}
+
+void Viewer::fillMonitor(const std::string& monitor) {
+    if (!window_->fillMonitor(monitor))
+        say(fmt::format("no monitor {} is connected; there are {}", quote(monitor), monitorList(window_->monitors())));
 }
 
 /// Drags, the wheel and the keys that fly: where they put the head becomes the setting `pose`.
@@ -233,114 +228,16 @@ void Viewer::moveByHand(Wish& wish) {
 /// The line between two techniques' pictures, if the mouse has hold of it.
 bool Viewer::moveLine() {
     const auto line = split_.line();
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || !line) return movesLine_ = false;
+    if (!line) return movesLine_ = false;
     const Placement place = picture();
     const double x = (static_cast<double>(ImGui::GetIO().MousePos.x) - place.x) / place.width;
     constexpr double kReach = 8.0;  // pixels
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse)
-        movesLine_ = std::abs(x - *line) * place.width < kReach;
+    const bool at = !ImGui::GetIO().WantCaptureMouse && std::abs(x - *line) * place.width < kReach;
+    if (at || movesLine_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) return movesLine_ = false;
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) movesLine_ = at;
     if (movesLine_) split_.setLine(std::clamp(x, 0.0, 1.0));
     return movesLine_;
-}
-
-void Viewer::drawPanel(Wish& wish) {
-    const ValueHints known = hints();
-    const std::function<void(std::string_view)> pictures = [&](std::string_view group) {
-        drawInstruments(group, wish);
-    };
-    stages_.hide();  // unless they are drawn
-    const PanelEdit edit = panel_.draw({wish.settings, known, history_.canUndo(), history_.canRedo(), pictures});
-    if (edit.undo) act(Action::undo, wish);
-    if (edit.redo) act(Action::redo, wish);
-    if (!edit.load.empty()) open(edit.load, wish);
-    if (edit.settings) {
-        wish.settings = *edit.settings;
-        wish.edit = true;
-        wish.goesOn = edit.goesOn;
-    }
-    if (edit.save.empty()) return;
-    try {
-        writeFileAtomically(edit.save, printSettings(settings_));
-        say("written: " + edit.save);
-    } catch (const std::runtime_error& problem) {
-        panel_.complain(problem.what());
-    }
-}
-
-void Viewer::drawInstruments(std::string_view group, Wish& wish) {
-    if (!show_ || !report_) return;
-    if (group == "Eye and lens") depths_.draw(*report_, show_->maker().head());
-    if (group == "Focus" && settings_.focus.focus.mode == FocusMode::gaze) instruments_.drawFocus();
-    if (group == "Display") warnOfDisparity();
-    if (group == "Budget") instruments_.drawFrameTimes();
-    if (group != "Measure") return;
-    if (split_.drawPanel()) stillFrames_ = 0;
-    instruments_.drawStages();
-    if (const auto stage = stages_.draw(settings_.render.show)) {
-        wish.settings.render.show = *stage;
-        wish.edit = true;
-    }
-}
-
-void Viewer::warnOfDisparity() const {
-    const ViewSettings& view = settings_.view;
-    if (!view.screenDistanceMm || !depths_.range() || view.eye != EyeChoice::both) return;
-    const auto degrees = [&](double vergence) {
-        const Radians angle =
-            screenDisparity(Metres(view.ipdMm * 1e-3), Metres(*view.screenDistanceMm * 1e-3), Dioptres(vergence));
-        return glm::degrees(angle.value);
-    };
-    const double front = degrees(depths_.range()->nearest), behind = -degrees(depths_.range()->farthest);
-    const bool strains = std::max(front, behind) > kComfortableDegrees;
-    const ImVec4 color = strains ? ImVec4(1.0f, 0.7f, 0.3f, 1.0f) : ImGui::GetStyle().Colors[ImGuiCol_TextDisabled];
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextWrapped("disparity up to %.2f degrees in front of the screen, %.2f behind%s", std::max(front, 0.0),
-                       std::max(behind, 0.0), strains ? ": more than 1 is hard to look at" : "");
-    ImGui::PopStyleColor();
-}
-
-ValueHints Viewer::hints() const {
-    ValueHints hints;
-    hints.first = [this](const Setting& setting) -> std::string {
-        if (setting.name == "aperture-mm" && report_)
-            return fmt::format("{:.2f}", report_->lens.apertureDiameter.value * 1e3);
-        if (setting.name == "age") return "40";
-        if (setting.name == "samples") return "32";
-        if (setting.name == "screen-width-mm") return printNumber(kScreenWidthMm);
-        if (setting.name == "screen-distance-mm") return printNumber(kScreenDistanceMm);
-        return {};
-    };
-    hints.choices = [this](const Setting& setting) {
-        std::vector<std::string> choices;
-        if (setting.name == "lens")
-            for (const auto& entry : std::filesystem::directory_iterator(resource("config/lenses")))
-                choices.push_back(entry.path().stem().string());
-        std::sort(choices.begin(), choices.end());
-        if (setting.name == "camera" && show_)
-            for (const Camera& camera : show_->scene().cameras) choices.push_back(camera.name);
-        return choices;
-    };
-    return hints;
-}
-
-/// A file of settings, or else a scene.
-void Viewer::open(const std::string& file, Wish& wish) {
-    if (!file.ends_with(".json")) {
-        Command command = command_;
-        command.settings = settings_;
-        command.scene = file;
-        error_.clear();
-        loader_.load(command);
-        return;
-    }
-    try {
-        loadSettings(file, wish.settings);
-        wish.edit = true;
-        say("settings: " + file);
-    } catch (const InputError& problem) {
-        error_ = problem.what();
-        logError(problem.what());
-    }
 }
 
 /// One eye's picture as large as it can be shown.
@@ -360,8 +257,10 @@ void Viewer::nextCamera(Settings& settings) const {
     const auto& cameras = show_ ? show_->scene().cameras : std::vector<Camera>();
     settings.view.pose.reset();
     if (cameras.empty()) return;
-    const auto named = std::find_if(cameras.begin(), cameras.end(),
-                                    [&](const Camera& camera) { return camera.name == settings.view.camera; });
+    // A camera may have no name; no name is the first camera.
+    const auto named = std::find_if(cameras.begin(), cameras.end(), [&](const Camera& camera) {
+        return !camera.name.empty() && camera.name == settings.view.camera;
+    });
     // By index where names are not given, or given twice
     const auto number = parseInteger(settings.view.camera);
     std::size_t current = 0;
@@ -370,73 +269,6 @@ void Viewer::nextCamera(Settings& settings) const {
     else if (number && *number > 0)
         current = static_cast<std::size_t>(*number);
     settings.view.camera = std::to_string((current + 1) % cameras.size());
-}
-
-Moment Viewer::moment() const {
-    return {report_->time, show_->maker().head().pose, report_->gaze, report_->lens.lens.focus, report_->plan};
-}
-
-/// From the next frame on the moment is drawn as `render` would, until nothing is missing of it.
-void Viewer::beginPicture() {
-    if (!show_ || !report_) return;
-    if (wanted_) {  // nobody waits for it any longer
-        wanted_.reset();
-        show_->change(settings_);
-        stillFrames_ = 0;
-        return;
-    }
-    WantedPicture picture{nextName("."), settingsOf(moment(), settings_)};
-    show_->change(picture.settings);
-    wanted_ = std::move(picture);
-}
-
-void Viewer::drawPictureToBeWritten() {
-    FrameMaker::Input input;
-    input.time = wanted_->settings.view.time;
-    input.budgetMilliseconds = kRefineMilliseconds;
-    input.refines = true;
-    report_ = &show_->maker().make(input);
-    pictureMade_ = true;
-    const bool coarse = show_->makesLevels() && show_->maker().mayUseLevels();
-    if (coarse || show_->maker().progress() < 1.0) return;
-    const WantedPicture done = std::move(*wanted_);
-    wanted_.reset();
-    try {
-        writePicture(done.name, show_->maker().composed(), done.settings);
-        say(fmt::format(
-            "written: {0}.png, .exr; dioptre render {1} --config {0}.json --out {0}-again.png draws it again",
-            done.name.lexically_normal().string(), command_.scene));
-    } catch (const std::runtime_error& problem) {
-        error_ = problem.what();
-        logError(problem.what());
-    }
-    show_->change(settings_);
-    stillFrames_ = 0;
-}
-
-void Viewer::toggleRecording() {
-    if (!show_ || !report_) return;
-    if (recording_)
-        finishRecording();
-    else
-        recording_.emplace(show_->maker().startingView().pose);
-    stillFrames_ = 0;
-}
-
-void Viewer::finishRecording() {
-    if (!recording_) return;
-    const Recording recording = std::move(*recording_);
-    recording_.reset();
-    if (recording.empty()) return;
-    try {
-        const auto name = nextName(".").lexically_normal();
-        recording.write(name, settings_);
-        say(fmt::format("written: {0}.head.csv, .gaze.csv; --config {0}.json follows them for {1:.1f} s", name.string(),
-                        recording.seconds()));
-    } catch (const std::runtime_error& problem) {
-        error_ = problem.what();
-        logError(problem.what());
-    }
 }
 
 }  // namespace dioptre

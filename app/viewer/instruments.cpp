@@ -88,7 +88,10 @@ double roundUp(double value) {
 void Instruments::note(double now, const FrameReport& report, const FocusFilter& filter, DynamicsChoice dynamics) {
     frames_.push_back({report.milliseconds, report.plan.technique});
     budgetMs_ = report.budgetMs;
-    why_ = report.decision ? report.decision->why : "";
+    if (!report.decision)
+        why_ = {};
+    else if (!report.decision->why.empty())
+        why_ = report.decision->why;
     if (frames_.size() > kFrames) frames_.pop_front();
 
     constexpr std::string_view kDynamics[] = {"natural", "snappy", "instant"};
@@ -125,6 +128,11 @@ void Instruments::drawFrameTimes() const {
     const float line = canvas.to.y - heightOf(budgetMs_);
     canvas.list->AddLine({canvas.from.x, line}, {canvas.to.x, line}, kBudgetColor, 1.5f);
     canvas.text(canvas.from.x + 4.0f, canvas.from.y + 2.0f, kText, fmt::format("{:g} ms", top));
+    const double fromRight = static_cast<double>((canvas.to.x - ImGui::GetIO().MousePos.x) / step);
+    if (ImGui::IsItemHovered() && fromRight >= 0.0 && fromRight < static_cast<double>(frames_.size())) {
+        const Frame& frame = frames_[frames_.size() - 1 - static_cast<std::size_t>(fromRight)];
+        ImGui::SetTooltip("%.1f ms, %s", frame.milliseconds, std::string(techniqueName(frame.technique)).c_str());
+    }
     // What the colours stand for, of those that are there
     bool first = true;
     for (const TechniqueChoice technique : kTechniques) {
@@ -135,7 +143,7 @@ void Instruments::drawFrameTimes() const {
         const std::string name(techniqueName(technique));
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colorOf(technique)), "%s", name.c_str());
     }
-    if (!why_.empty()) ImGui::TextWrapped("%.*s", static_cast<int>(why_.size()), why_.data());
+    if (!why_.empty()) ImGui::TextWrapped("last choice: %.*s", static_cast<int>(why_.size()), why_.data());
 }
 
 void Instruments::drawStages() {
@@ -184,8 +192,8 @@ void Instruments::drawFocus() const {
         canvas.list->AddRectFilled({left, canvas.to.y - strip}, {right + 0.5f, canvas.to.y}, lookOf(b.state).color);
     }
     canvas.text(canvas.from.x + 4.0f, canvas.from.y + 2.0f, kText, fmt::format("{:g} D", top));
-    canvas.text(canvas.from.x + 4.0f, canvas.to.y - strip - ImGui::GetTextLineHeight(), kFaint,
-                fmt::format("the last {:g} s", kFocusSeconds));
+    const std::string span = fmt::format("the last {:g} s", kFocusSeconds);
+    canvas.text(canvas.to.x - ImGui::CalcTextSize(span.c_str()).x - 4.0f, canvas.from.y + 2.0f, kFaint, span);
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kFocusColor), "focus %.2f D", focus_.back().focus.value);
     ImGui::SameLine();
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kTargetColor), "target %.2f D, dead zone %.2f D",

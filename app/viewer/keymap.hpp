@@ -17,6 +17,8 @@ enum class Action {
     reset,
     nextDisplay,
     swapEyes,
+    compare,
+    difference,
     fitSize,
     search,
     undo,

@@ -15,7 +15,13 @@ struct Progress {
 };
 void drawProgress(const Progress& progress, int place);  // place: 0 the lowest, 1 above it
 
-/// One line in the lower left corner.
+/// Text on the picture, on a dark ground; `align` 0: right of x, 1: left of it, 0.5: around it.
+struct Label {
+    float x = 0.0f, y = 0.0f, align = 0.0f;
+};
+void drawLabel(const Label& label, const std::string& text);
+
+/// One line in the lower right corner.
 void drawNotice(const std::string& text);
 
 /// What went wrong, until somebody has read it; false once they have.

@@ -6,8 +6,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <span>
 
 #include "core/error.hpp"
+#include "viewer/wording.hpp"
 
 namespace dioptre {
 
@@ -20,43 +25,113 @@ const Panel::Group Panel::kGroups[] = {
 
 namespace {
 
+const ImVec4 kUnchanged(0.66f, 0.69f, 0.74f, 1.0f), kWarning(1.0f, 0.75f, 0.35f, 1.0f),
+    kProblem(1.0f, 0.55f, 0.45f, 1.0f);
+
 /// Where a person looks for a setting. A new one is found where its neighbours of the command line are.
 std::string_view groupOf(const Setting& setting) {
     const auto is = [&](auto... names) { return ((setting.name == names) || ...); };
-    if (is("camera", "pose", "time") || setting.group == "system") return is("ui-scale") ? "Display" : "Scene";
+    if (is("ui-scale", "monitor")) return "Display";
+    if (is("camera", "pose", "time") || setting.group == "system") return "Scene";
     if (is("budget-ms")) return "Budget";
+    if (is("show")) return "Measure";
     if (setting.group == "lens") return "Eye and lens";
     if (setting.group == "focus") return "Focus";
     return setting.group == "view" ? "Display" : "Look";
 }
 
-bool contains(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+bool sameLetter(char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-bool disabledButton(const char* label, bool enabled) {
+bool contains(std::string_view text, std::string_view part) {
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), sameLetter) != text.end();
+}
+
+/// What follows `name` and a blank; none where `text` does not begin so.
+std::optional<std::string> valueBehind(std::string_view text, std::string_view name) {
+    const bool begins = text.size() > name.size() && std::equal(name.begin(), name.end(), text.begin(), sameLetter);
+    if (!begins || text[name.size()] != ' ') return std::nullopt;
+    const std::size_t value = text.find_first_not_of(' ', name.size());
+    return value == std::string_view::npos ? std::nullopt : std::optional<std::string>(text.substr(value));
+}
+
+bool disabledButton(const char* label, bool enabled, float width) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(label);
+    const bool pressed = ImGui::Button(label, {width, 0.0f});
     ImGui::EndDisabled();
+    return pressed;
+}
+
+struct Line {
+    ImVec4 color;
+    const std::string& text;
+};
+
+/// At the bottom, so that nothing moves under the mouse where one comes or goes.
+float heightOf(std::span<const Line> lines) {
+    float height = 0.0f;
+    for (const Line& line : lines)
+        if (!line.text.empty())
+            height += ImGui::CalcTextSize(line.text.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y +
+                      ImGui::GetStyle().ItemSpacing.y;
+    return height;
+}
+
+void drawLines(std::span<const Line> lines) {
+    for (const Line& line : lines) {
+        if (line.text.empty()) continue;
+        ImGui::PushStyleColor(ImGuiCol_Text, line.color);
+        ImGui::TextWrapped("%s", line.text.c_str());
+        ImGui::PopStyleColor();
+    }
+}
+
+void tip(const char* text) {
+    if (!ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+std::vector<std::string> presetsHere() {
+    std::vector<std::string> files;
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(".", unreadable))
+        if (entry.path().extension() == ".json") files.push_back(entry.path().filename().string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// An arrow that goes back around, in a frame's square; pressed?
+bool resetButton() {
+    const float side = ImGui::GetFrameHeight();
+    const bool pressed = ImGui::InvisibleButton("reset", {side, side});
+    const ImVec2 from = ImGui::GetItemRectMin(), middle(from.x + 0.5f * side, from.y + 0.5f * side);
+    const ImU32 color = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+    const float radius = 0.24f * side, head = 0.15f * side;
+    constexpr float kFrom = -2.2f, kTo = 3.0f;  // radians, clockwise from the right
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PathArcTo(middle, radius, kFrom, kTo);
+    list.PathStroke(color, 0, std::max(1.5f, 0.07f * side));
+    const ImVec2 end(middle.x + radius * std::cos(kFrom), middle.y + radius * std::sin(kFrom));
+    list.AddTriangleFilled({end.x - 1.3f * head, end.y + 0.3f * head}, {end.x + 0.9f * head, end.y - 1.1f * head},
+                           {end.x + 0.7f * head, end.y + 1.1f * head}, color);
     return pressed;
 }
 
 void explain(const Setting& setting) {
     if (!ImGui::IsItemHovered()) return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
     std::string text(setting.help);
     if (const std::string range = setting.rangeText(); setting.kind != SettingKind::boolean && !range.empty())
         text += "\n" + range;
     text += "\ndefault: " + (setting.defaultText.empty() ? "not set" : setting.defaultText);
-    if (setting.kind == SettingKind::number || setting.kind == SettingKind::integer)
-        text += "\ndrag, or double-click to type";
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    text += fmt::format("\n--{}", setting.name);
+    if ((setting.kind == SettingKind::number || setting.kind == SettingKind::integer) && setting.choices.empty())
+        text += "\ndrag the value, with Shift faster, with Alt finer; double-click to type it";
+    tip(text.c_str());
 }
 
 }  // namespace
@@ -75,58 +150,71 @@ PanelEdit Panel::draw(const PanelView& view) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
     drawHead(view, edit);
-    ImGui::BeginChild("groups");
+    const Line lines[] = {{kProblem, problem_}, {kWarning, view.warning}, {kUnchanged, view.status}};
+    ImGui::BeginChild("groups", {0.0f, -heightOf(lines)}, false, ImGuiWindowFlags_AlwaysVerticalScrollbar);
     for (const Group& group : kGroups) drawGroup(view, group, edit);
     ImGui::EndChild();
+    drawLines(lines);
     ImGui::End();
     return edit;
 }
 
 void Panel::drawHead(const PanelView& view, PanelEdit& edit) {
-    const float button = 3.6f * ImGui::GetFontSize();
-    ImGui::SetNextItemWidth(-2.0f * button);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float button = 3.4f * ImGui::GetFontSize(), gap = style.ItemSpacing.x;
+    ImGui::SetNextItemWidth(-2.0f * (button + gap));
     if (focusSearch_) ImGui::SetKeyboardFocusHere();
     focusSearch_ = false;
     if (ImGui::InputTextWithHint("##search", "search, or NAME VALUE and Enter", &search_,
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll))
         runSearch(view, edit);
+    tip("words of a setting's name or meaning; with a value behind its name, Enter sets it: ipd 60");
     ImGui::SameLine();
-    edit.undo = disabledButton("Undo", view.canUndo);
+    edit.undo = disabledButton("Undo", view.canUndo, button);
+    tip("take back the last edit (Ctrl Z)");
     ImGui::SameLine();
-    edit.redo = disabledButton("Redo", view.canRedo);
+    edit.redo = disabledButton("Redo", view.canRedo, button);
+    tip("make it again (Ctrl Y)");
 
-    ImGui::SetNextItemWidth(-2.0f * button);
-    ImGui::InputTextWithHint("##preset", "file of settings, .json", &presetFile_);
+    const float arrow = ImGui::GetFrameHeight();
+    ImGui::SetNextItemWidth(-2.0f * (button + gap) - arrow);
+    ImGui::InputTextWithHint("##preset", "preset: a .json file", &presetFile_);
+    tip("a file of settings: type its name, or choose one of this folder's to load it");
+    ImGui::SameLine(0.0f, 0.0f);
+    if (ImGui::BeginCombo("##presets", nullptr, ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
+        const std::vector<std::string> files = presetsHere();
+        for (const std::string& file : files)
+            if (ImGui::Selectable(file.c_str(), file == presetFile_)) edit.load = presetFile_ = file;
+        if (files.empty()) ImGui::TextDisabled("no .json file in this folder");
+        ImGui::EndCombo();
+    }
     ImGui::SameLine();
-    if (disabledButton("Load", !presetFile_.empty())) edit.load = presetFile_;
+    if (disabledButton("Load", !presetFile_.empty(), button)) edit.load = presetFile_;
     ImGui::SameLine();
-    if (disabledButton("Save", !presetFile_.empty())) edit.save = presetFile_;
+    if (disabledButton("Save", !presetFile_.empty(), button)) edit.save = presetFile_;
 
-    if (problem_.empty()) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.55f, 0.45f, 1.0f));
-    ImGui::TextWrapped("%s", problem_.c_str());
-    ImGui::PopStyleColor();
+    ImGui::Spacing();
 }
 
-/// "aperture-mm 6": the name of a setting and its value.
+/// "aperture-mm 6": the name of a setting, or its label, and its value.
 void Panel::runSearch(const PanelView& view, PanelEdit& edit) {
-    const std::size_t blank = search_.find(' ');
-    if (blank == std::string::npos) return;
-    const std::string name = search_.substr(0, blank);
+    if (search_.find(' ') == std::string::npos) return;
     for (const Setting& setting : settingsTable()) {
-        if (setting.name != name) continue;
-        set(view, setting, search_.substr(search_.find_last_of(' ') + 1), edit);
+        auto value = valueBehind(search_, setting.name);
+        if (!value) value = valueBehind(search_, labelOf(setting));
+        if (!value) continue;
+        set(view, setting, *value, edit);
         search_.clear();
         return;
     }
-    problem_ = fmt::format("no setting is called {}", name);
+    problem_ = fmt::format("no setting is called {}", search_.substr(0, search_.find(' ')));
 }
 
 bool Panel::found(const Setting& setting) const {
+    const std::string label = labelOf(setting);
+    if (contains(setting.name, search_) || contains(label, search_) || contains(setting.help, search_)) return true;
     // With a value behind it, a name is meant.
-    const std::size_t blank = std::min(search_.find(' '), search_.size());
-    const std::string_view word = std::string_view(search_).substr(0, blank);
-    return contains(setting.name, word) || (blank == search_.size() && contains(setting.help, word));
+    return valueBehind(search_, setting.name) || valueBehind(search_, label);
 }
 
 void Panel::drawGroup(const PanelView& view, const Group& group, PanelEdit& edit) {
@@ -158,9 +246,9 @@ void Panel::drawGroup(const PanelView& view, const Group& group, PanelEdit& edit
     constexpr ImGuiTableFlags kTable = ImGuiTableFlags_SizingFixedFit;
     if (!rows.empty() && ImGui::BeginTable(id.c_str(), 4, kTable)) {
         const float em = ImGui::GetFontSize();
-        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 9.6f * em);
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 8.4f * em);
         ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
+        ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 3.0f * em);
         ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.4f * em);
         for (const Setting* setting : rows) drawRow(view, *setting, edit);
         ImGui::EndTable();
@@ -169,25 +257,28 @@ void Panel::drawGroup(const PanelView& view, const Group& group, PanelEdit& edit
 }
 
 void Panel::drawRow(const PanelView& view, const Setting& setting, PanelEdit& edit) {
-    const std::string name(setting.name), unit(setting.unit), value = setting.get(view.settings, setting);
+    const std::string name(setting.name), value = setting.get(view.settings, setting);
+    const bool changed = value != setting.defaultText;
     ImGui::PushID(name.c_str());
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(name.c_str());
+    // What is not as it was made stands out.
+    if (!changed) ImGui::PushStyleColor(ImGuiCol_Text, kUnchanged);
+    ImGui::TextUnformatted(labelOf(setting).c_str());
+    if (!changed) ImGui::PopStyleColor();
     explain(setting);
     ImGui::TableNextColumn();
-    if (const auto changed = values_.draw(setting, value, view.hints)) {
-        set(view, setting, changed->text, edit);
-        edit.goesOn = changed->goesOn;
+    if (const auto edited = values_.draw(setting, value, view.hints)) {
+        set(view, setting, edited->text, edit);
+        edit.goesOn = edited->goesOn;
     }
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("%s", unit.c_str());
+    ImGui::TextDisabled("%s", unitOf(setting).c_str());
     ImGui::TableNextColumn();
-    if (value != setting.defaultText) {
-        if (ImGui::Button("x", {ImGui::GetFrameHeight(), 0.0f})) set(view, setting, setting.defaultText, edit);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("back to %s", setting.defaultText.empty() ? "not set" : setting.defaultText.c_str());
+    if (changed) {
+        if (resetButton()) set(view, setting, setting.defaultText, edit);
+        tip(fmt::format("back to {}", setting.defaultText.empty() ? "not set" : setting.defaultText).c_str());
     }
     ImGui::PopID();
 }

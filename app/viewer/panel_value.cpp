@@ -7,14 +7,15 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "viewer/wording.hpp"
 
 namespace dioptre {
 
 namespace {
 
-// A drag of so many pixels goes through the whole of a logarithmic range; of a hundredth of the value otherwise.
-constexpr double kWholeRangePixels = 600.0;
-constexpr double kPerPixel = 0.01;
+// A drag of so many pixels goes through the whole of a logarithmic range.
+constexpr double kWholeRangePixels = 1500.0;
+constexpr double kIntegerPerPixel = 0.01;  // of the value
 // A range of more than that is logarithmic.
 constexpr double kWideRange = 1e5;
 
@@ -63,7 +64,8 @@ std::optional<ValueEditor::Edit> ValueEditor::draw(const Setting& setting, const
     if (setting.kind == SettingKind::boolean) return once(drawCheck(value));
     if (hasChoices && !(setting.optional && value.empty())) return once(drawChoice(setting, value));
     if ((isNumber || hasChoices) && value.empty()) {
-        if (ImGui::Button("not set", {-1.0f, 0.0f})) {
+        const std::string standIn = hints.standIn(setting);
+        if (ImGui::Button(standIn.empty() ? "not set" : standIn.c_str(), {-1.0f, 0.0f})) {
             if (hasChoices) return Edit{std::string(setting.choices.front()), false};
             const std::string first = hints.first(setting);
             return Edit{first.empty() ? printNumber(std::clamp(1.0, setting.min, setting.max)) : first, false};
@@ -82,20 +84,21 @@ std::optional<std::string> ValueEditor::drawNumber(const Setting& setting, const
     if (setting.kind == SettingKind::integer) {
         int number = parseInteger(value).value_or(0);
         const int least = static_cast<int>(setting.min), most = static_cast<int>(setting.max);
-        const auto speed = static_cast<float>(std::max(std::abs(number), 8) * kPerPixel);
+        const auto speed = static_cast<float>(std::max(std::abs(number), 8) * kIntegerPerPixel);
         if (!ImGui::DragInt("##value", &number, speed, least, most, "%d", ImGuiSliderFlags_AlwaysClamp))
             return std::nullopt;
         return std::to_string(number);
     }
     double number = parseNumber(value).value_or(0.0);
-    const double range = setting.max - setting.min;
     const bool logarithmic = setting.min > 0.0 && setting.max / setting.min > kWideRange;
-    const double speed = logarithmic ? range / kWholeRangePixels
-                                     : std::min(std::max(std::abs(number), 1.0) * kPerPixel, range / kWholeRangePixels);
+    const double step = logarithmic ? (setting.max - setting.min) / kWholeRangePixels : dragStep(setting, number);
+    // What was typed is shown as it was; what is dragged comes in short numbers.
+    const bool dragged = dragged_ == &setting;
+    const std::string format = !dragged ? "%.6g" : logarithmic ? "%.3g" : dragFormat(number, step);
     ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
     if (logarithmic) flags |= ImGuiSliderFlags_Logarithmic;
-    const bool changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number, static_cast<float>(speed),
-                                           &setting.min, &setting.max, "%.5g", flags);
+    const bool changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number, static_cast<float>(step),
+                                           &setting.min, &setting.max, format.c_str(), flags);
     return changed ? std::optional(printNumber(number)) : std::nullopt;
 }
 

@@ -15,6 +15,8 @@ namespace dioptre {
 struct ValueHints {
     /// For a setting that is not set, where to begin; empty: nobody knows.
     std::function<std::string(const Setting&)> first;
+    /// What stands in for one that is not set, "auto 4.32"; empty: nothing does.
+    std::function<std::string(const Setting&)> standIn;
     /// Of texts: values to choose from, beside those that the table names.
     std::function<std::vector<std::string>(const Setting&)> choices;
 };

@@ -1,10 +1,12 @@
 #include "viewer/split_view.hpp"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -44,14 +46,29 @@ bool SplitView::drawPanel() {
     if (!other_) return changed;
     if (ImGui::RadioButton("right of a line", !difference_)) difference_ = false;
     ImGui::SameLine();
-    if (ImGui::RadioButton("difference x 4", difference_)) difference_ = true;
-    if (measured_)
-        ImGui::Text("PSNR %.1f dB, SSIM %.4f", measured_->psnr, measured_->ssim);
-    else if (progress() < 1.0)
-        ImGui::Text("%s: %.0f %%", current.c_str(), 100.0 * progress());
-    else
-        ImGui::TextUnformatted("PSNR and SSIM follow once nothing moves");
+    if (ImGui::RadioButton("difference \u00d7 4", difference_)) difference_ = true;
+    ImGui::TextWrapped("%s", describe().c_str());
     return changed;
+}
+
+void SplitView::compareWithNext() {
+    const auto techniques = std::span(kTechniques);
+    const auto now = other_ ? std::find(techniques.begin(), techniques.end(), *other_) + 1 : techniques.begin();
+    other_ = now == techniques.end() ? std::nullopt : std::optional(*now);
+}
+
+std::string SplitView::describe() const {
+    if (!other_ || made_ != other_) return {};
+    const std::string name = planText(plan_);
+    if (measured_) return fmt::format("{}: PSNR {:.1f} dB, SSIM {:.4f}", name, measured_->psnr, measured_->ssim);
+    if (progress() < 1.0) return fmt::format("{}: {:.0f} %", name, 100.0 * progress());
+    return fmt::format("{}: PSNR and SSIM follow once nothing moves", name);
+}
+
+Plan SplitView::planFor(TechniqueChoice technique, RenderSettings render) {
+    render.technique = technique;
+    render.samples.reset();
+    return planOf(render).value_or(Plan());
 }
 
 void SplitView::draw(const FrameMaker& maker, const Settings& settings, double budgetMilliseconds) {
@@ -61,10 +78,8 @@ void SplitView::draw(const FrameMaker& maker, const Settings& settings, double b
         for (std::size_t i = 0; i < views.size(); ++i) techniques_.push_back(makeTechnique(*other_));
         made_ = other_;
     }
-    RenderSettings render = settings.render;
-    render.technique = *other_;
-    render.samples.reset();
-    const Plan plan = planOf(render).value_or(Plan());
+    const RenderSettings& render = settings.render;
+    plan_ = planFor(*other_, render);
     // As many samples as last time, but for what that took more or less than the budget
     const double start = nowMilliseconds();
     std::vector<const Texture*> pictures;
@@ -73,7 +88,7 @@ void SplitView::draw(const FrameMaker& maker, const Settings& settings, double b
         EyeFrame frame{
             maker.scene(), views[i], maker.report().lens.lens, static_cast<float>(std::exp2(render.exposureEv)), 0, {},
             unread};
-        apply(plan, frame);
+        apply(plan_, frame);
         frame.samplesNow = samplesNow_;
         pictures.push_back(&techniques_[i]->draw(frame));
     }
@@ -81,7 +96,7 @@ void SplitView::draw(const FrameMaker& maker, const Settings& settings, double b
     constexpr double kMostChange = 2.0;
     const double change =
         std::clamp(budgetMilliseconds / std::max(nowMilliseconds() - start, 1e-3), 1.0 / kMostChange, kMostChange);
-    samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, plan.samples.value_or(1));
+    samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, plan_.samples.value_or(1));
     const DisplayChoice display = views.size() == 1 ? DisplayChoice::mono : settings.view.display;
     picture_ = &compositor_.compose({*pictures.front(),
                                      *pictures.back(),

@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/image.hpp"
@@ -18,6 +19,12 @@ class SplitView {
     /// Controls for the panel, and what was measured; whether anything was changed.
     bool drawPanel();
     bool on() const { return other_.has_value(); }
+    /// Nothing, then each technique in turn.
+    void compareWithNext();
+    void toggleDifference() { difference_ = on() && !difference_; }
+    bool showsDifference() const { return on() && difference_; }
+    /// "reference, 512 samples: PSNR 31.2 dB, SSIM 0.9731", or how far it is.
+    std::string describe() const;
 
     /// Draws what `maker` drew last with the other technique, as far as the budget allows; goes on with the next call.
     void draw(const FrameMaker& maker, const Settings& settings, double budgetMilliseconds);
@@ -38,6 +45,7 @@ class SplitView {
 
   private:
     bool measurable() const;
+    static Plan planFor(TechniqueChoice technique, RenderSettings render);
 
     struct Distance {
         double psnr = 0.0, ssim = 0.0;
@@ -46,6 +54,7 @@ class SplitView {
     bool difference_ = false;
     double line_ = 0.5;
     std::optional<TechniqueChoice> made_;  // what techniques_ are
+    Plan plan_;                            // of it
     std::vector<std::unique_ptr<Technique>> techniques_;
     int samplesNow_ = 1;
     Compositor compositor_;

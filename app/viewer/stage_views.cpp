@@ -16,21 +16,21 @@ constexpr int kColumns = 3;
 
 struct NamedStage {
     ShowChoice stage;
-    const char* name;
+    const char *name, *meaning;
     std::optional<TechniqueChoice> only;  // none: every technique has it
 };
-const NamedStage kStages[] = {{ShowChoice::none, "picture", {}},
-                              {ShowChoice::vergence, "vergence", {}},
-                              {ShowChoice::coc, "coc", {}},
-                              {ShowChoice::dob, "dob", {}},
-                              {ShowChoice::don, "don", TechniqueChoice::mipmap},
-                              {ShowChoice::level, "level", TechniqueChoice::mipmap},
-                              {ShowChoice::lod, "lod", TechniqueChoice::accumulate}};
+const NamedStage kStages[] = {
+    {ShowChoice::none, "picture", "the picture itself", {}},
+    {ShowChoice::vergence, "vergence", "depth: bright is near, black is infinity", {}},
+    {ShowChoice::coc, "coc", "circle of confusion: red in front of focus, blue behind", {}},
+    {ShowChoice::dob, "dob", "degree of blur, whatever its side", {}},
+    {ShowChoice::don, "don", "how much blurred foreground lies nearby", TechniqueChoice::mipmap},
+    {ShowChoice::level, "level", "which levels of the picture pyramid are read", TechniqueChoice::mipmap},
+    {ShowChoice::lod, "lod", "which levels of detail are drawn", TechniqueChoice::accumulate}};
 
-const char* nameOf(const ShowStage& stage) {
-    const auto named = std::find_if(std::begin(kStages), std::end(kStages),
-                                    [&](const NamedStage& candidate) { return candidate.stage == stage.stage; });
-    return named != std::end(kStages) ? named->name : "";
+const NamedStage& named(const ShowStage& stage) {
+    return *std::find_if(std::begin(kStages), std::end(kStages),
+                         [&](const NamedStage& candidate) { return candidate.stage == stage.stage; });
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void StageViews::prepare(TechniqueChoice technique, int height) {
         const Framebuffer::Attachment color[] = {{&small.picture, 0}};
         small.target = Framebuffer(color, nullptr, "stage in the panel");
     }
-    if (!encode_.program()) encode_ = FullscreenPass("present/compose.frag.glsl");
+    if (!encode_.program()) encode_ = FullscreenPass("present/compose.frag.glsl", {"MONO", "ENCODE"});
 }
 
 void StageViews::drawNext(const GpuScene& scene, const View& head, const Lens& lens, const Plan& plan,
@@ -72,11 +72,8 @@ void StageViews::drawNext(const GpuScene& scene, const View& head, const Lens& l
     technique_->draw(frame).bind(0);
     small.target.bind();
     const Program& program = encode_.program();
-    program.set("mode", 0);
     program.set("origin", glm::vec2(0.0f));
     program.set("size", glm::vec2(small.target.width(), small.target.height()));
-    program.set("neutral", 0);
-    program.set("encode", 1);
     encode_.draw();
     next_ = (next_ + 1) % stages_.size();
     ++fresh_;
@@ -90,17 +87,19 @@ std::optional<ShowStage> StageViews::draw(const ShowStage& current) {
         ImGui::TableNextColumn();
         const float width = ImGui::GetContentRegionAvail().x;
         const float height = width * static_cast<float>(small.picture.height()) / kWidth;
-        ImGui::PushID(nameOf(small.stage));
+        const NamedStage& stage = named(small.stage);
+        ImGui::PushID(stage.name);
         // ImGui's textures are names in pointers; GL's first row is the lowest.
         const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(small.picture.name()));
         ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, 0.0f));
         if (ImGui::ImageButton(id, {width, height}, {0.0f, 1.0f}, {1.0f, 0.0f})) clicked = small.stage;
         ImGui::PopStyleVar();
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s; a click shows it large", stage.meaning);
         ImGui::PopID();
         if (small.stage == current)
-            ImGui::TextUnformatted(nameOf(small.stage));
+            ImGui::TextUnformatted(stage.name);
         else
-            ImGui::TextDisabled("%s", nameOf(small.stage));
+            ImGui::TextDisabled("%s", stage.name);
     }
     ImGui::EndTable();
     return clicked;

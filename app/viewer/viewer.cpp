@@ -30,6 +30,8 @@ constexpr double kSecondsUntilStill = 1.5;
 // As the focus filter has it: nearer than that to its target it has arrived.
 constexpr double kArrived = 0.01;  // dioptres
 constexpr double kSurveySeconds = 0.5;
+// A frame of a view that rests: hardly anybody sees a pause so long where they move it again.
+constexpr double kStillMilliseconds = 200.0;
 
 /// What is wrong with it is said before a window opens.
 std::unique_ptr<GazeInput> openGazeInput(const Command& command) {
@@ -147,8 +149,11 @@ void Viewer::frame() {
 
 /// Shows a scene that was loaded; where it is refused, says why and goes on with the one that is there.
 void Viewer::takeScene() {
+    // Its way to the GPU keeps the window waiting: what it waits for is shown first.
+    if (loader_.ready() && !std::exchange(announced_, true)) return;
     try {
         std::optional<Scene> scene = loader_.take();
+        announced_ = false;
         if (!scene) {
             if (show_ && show_->takeLevels()) stillFrames_ = 0;
             return;
@@ -180,6 +185,7 @@ void Viewer::takeScene() {
         if (!show_) throw;
         logError(problem.what());
         error_ = problem.what();
+        announced_ = false;
         framesToDraw_ = kFramesAfterEvent;
         stillFrames_ = 0;
     }
@@ -207,6 +213,8 @@ void Viewer::apply(const Wish& wish) {
         before.view.pose = wish.byHand ? wish.settings.view.pose : before.view.pose;
         history_.edited(before, wish.settings, wish.goesOn);
     }
+    const std::string& monitor = wish.settings.system.monitor;
+    if (monitor != settings_.system.monitor && window_->isFullScreen()) fillMonitor(monitor);
     settings_ = wish.settings;
 }
 
@@ -220,6 +228,7 @@ FrameMaker::Input Viewer::inputNow() {
     input.mayLag = true;
     input.budgetMilliseconds = settings_.render.budgetMs.value_or(refreshMs_);
     input.refines = true;
+    if (heldTime_) input.refineMilliseconds = kStillMilliseconds;
     // A trace plays; without one a tracker says it, or else the pointer.
     if (!settings_.focus.gazeTrace.empty()) return input;
     if (gazeInput_) {
@@ -345,15 +354,25 @@ std::optional<glm::dvec2> Viewer::pointerGaze() const {
     return gaze;
 }
 
+/// The line between two pictures, and what they are.
+void Viewer::drawComparison() {
+    const Placement all = picture();
+    const auto top = static_cast<float>(all.y);
+    const auto line = split_.line();
+    const auto x = static_cast<float>(all.x + line.value_or(0.5) * all.width);
+    if (!line) return drawLabel({x, top, 0.5f}, "difference \u00d7 4, " + split_.describe());
+    ImGui::GetBackgroundDrawList()->AddLine({x, top}, {x, top + static_cast<float>(all.height)}, IM_COL32_WHITE, 2.0f);
+    drawLabel({x, top, 1.0f}, planText(report_->plan));
+    drawLabel({x, top, 0.0f}, split_.describe());
+}
+
 void Viewer::drawOver() {
     int place = 0;
-    if (const auto line = split_.line()) {
-        const Placement all = picture();
-        const auto x = static_cast<float>(all.x + *line * all.width), y = static_cast<float>(all.y);
-        ImGui::GetBackgroundDrawList()->AddLine({x, y}, {x, y + static_cast<float>(all.height)}, IM_COL32_WHITE, 2.0f);
-    }
+    if (split_.on() && report_) drawComparison();
     if (loader_.running())
-        drawProgress({fmt::format("loading {}, {:.0f} s", loader_.name(), loader_.seconds()), loader_.progress()},
+        drawProgress(announced_ ? Progress{"preparing " + loader_.name(), 1.0}
+                                : Progress{fmt::format("loading {}, {:.0f} s", loader_.name(), loader_.seconds()),
+                                           loader_.progress()},
                      place++);
     if (wanted_)
         drawProgress({"finishing the picture to be written", show_->maker().progress()}, place++);
@@ -380,6 +399,7 @@ void Viewer::showTitle() {
     } else {
         title += fmt::format("{}  focus {:.2f} D  {}  {:.1f} ms  F1 keys", show_->scene().name,
                              report_->lens.lens.focus.value, planText(report_->plan), report_->milliseconds);
+        if (split_.on()) title += "  against " + split_.describe();
     }
     if (title == title_) return;
     glfwSetWindowTitle(window_->handle(), title.c_str());

@@ -71,6 +71,7 @@ class Viewer {
     void makePicture(const FrameMaker::Input& input);
     bool instrumentsDue() const;
     void drawForInstruments();
+    void drawComparison();
     void drawOver();
     void showTitle();
     void say(const std::string& text);
@@ -81,10 +82,16 @@ class Viewer {
     void moveByHand(Wish& wish);
     bool moveLine();
     void drawPanel(Wish& wish);
+    static void completeScreen(const ViewSettings& before, ViewSettings& after);
     void drawInstruments(std::string_view group, Wish& wish);
-    void warnOfDisparity() const;
+    std::optional<glm::dvec2> disparity() const;
+    void drawDisparity() const;
+    std::string disparityWarning() const;
+    std::string status() const;
     ValueHints hints() const;
     void open(const std::string& file, Wish& wish);
+    void toggleFullScreen();
+    void fillMonitor(const std::string& monitor);
     void fitSize(Settings& settings) const;
     void nextCamera(Settings& settings) const;
 
@@ -124,6 +131,7 @@ class Viewer {
     std::vector<Action> actions_;
     std::string dropped_;
     bool woken_ = true;
+    bool announced_ = false;  // that a scene is about to be shown
     int framesToDraw_ = 0;  // of the window, though the picture may be the same
     bool dragging_[3] = {};
     glm::dvec2 pointer_{0.0}, dragged_[3] = {};  // pixels, while each button was down

@@ -263,6 +263,12 @@ std::vector<Setting> makeTable() {
                                                    .help = "size of the window's text and buttons",
                                                    .min = 0.5,
                                                    .max = 4.0}),
+        row<&S::system, &SystemSettings::monitor>(
+            {.group = "system",
+             .name = "monitor",
+             .help = "monitor that full screen fills, by number from 1 or by name; not given: where the window is",
+             .optional = true,
+             .form = "NUMBER|NAME"}),
     };
 }
 

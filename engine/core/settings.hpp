@@ -96,6 +96,7 @@ struct SystemSettings {
     int maxSceneMb = 6144;       // memory that loading a scene may take, 2^20 bytes
     int maxTextureSide = 16384;  // px
     double uiScale = 1.0;        // of the window's text
+    std::string monitor;         // of full screen: its number from 1 or its name; empty: where the window is
 };
 
 struct Settings {

@@ -3,100 +3,10 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "core/color.hpp"
-#include "core/image.hpp"
-#include "core/settings.hpp"
-#include "program.hpp"
+#include "view_program.hpp"
 
 namespace dioptre::test {
 namespace {
-
-/// The largest difference of two pictures, in steps of 1/255 of what a screen shows.
-double stepsApart(const Image& a, const Image& b) {
-    if (a.width != b.width || a.height != b.height) return 1e9;
-    double most = 0.0;
-    const auto shown = [](float value) { return static_cast<double>(srgbFromLinear(clampUnit(value))); };
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        most = std::max(most, 255.0 * std::abs(shown(a.pixels[i]) - shown(b.pixels[i])));
-    return most;
-}
-
-class ViewTest : public ProgramTest {
-  protected:
-    /// Opens the scene, with options, in a window of 320x120, does the steps (a shell script: $window, $program, $drop,
-    /// and the functions below), and waits until the program ends.
-    Outcome view(const std::string& steps, const std::string& scene = "scene.gltf", bool managed = false,
-                 const std::string& before = "") {
-        leaksAllowed = true;
-        write("steps.sh", before + (managed ? "openbox & manager=$!; sleep 1\n" : "") +
-                              "export XDG_CACHE_HOME=$PWD/cache; \"$1\" view " + scene +
-                              R"( --size 160x120 --log log.csv & program=$!
-drop=$2
-grab() { "$grabber" "$window" "$1" || exit 93; } # what the window shows, to a PNG
-grabber=$3
-for try in $(seq 100); do
-    window=$(xdotool search --onlyvisible --name '^Dioptre: .*focus' 2>/dev/null) && break
-    kill -0 $program || exit 90
-    sleep 0.1
-done
-xdotool windowfocus "$window"
-title() { # waits for one that holds $1
-    for try in $(seq 50); do
-        xdotool getwindowname "$window" | grep -F -e "$1" && return
-        sleep 0.1
-    done
-    xdotool getwindowname "$window"
-    exit 91
-}
-there() { # waits for a file
-    for try in $(seq 100); do
-        [ -s "$1" ] && return
-        sleep 0.1
-    done
-    exit 94
-}
-setting() { # NAME VALUE, typed into the panel's search
-    xdotool key ctrl+f
-    sleep 0.4
-    xdotool type --delay 30 "$1 $2"
-    xdotool key Return
-    sleep 0.4
-}
-)" + steps + R"(
-sleep 0.5
-for try in $(seq 50); do
-    kill -0 $program 2>/dev/null || break
-    xdotool key Escape
-    sleep 0.2
-done
-wait $program; status=$?
-[ -z "$manager" ] || kill $manager
-exit $status
-)");
-        return runProgram(DIOPTRE_WITH_DISPLAY,
-                          {"800x600", "sh", "steps.sh", DIOPTRE_PROGRAM, DIOPTRE_DROP, DIOPTRE_GRAB});
-    }
-
-    void SetUp() override {
-        if (runProgram("sh", {"-c", "command -v Xvfb && command -v xdotool && command -v openbox"}).status != 0)
-            GTEST_SKIP() << "Xvfb, xdotool or openbox is not there";
-    }
-    std::vector<std::string> log() const { return linesOf(read("log.csv")); }
-    Settings settingsIn(const std::string& name) const {
-        Settings settings;
-        loadSettings(folder / name, settings);
-        return settings;
-    }
-    /// The picture that a key wrote is the one that `render` draws by the settings beside it.
-    void expectDrawnAgain(const std::string& name, const std::string& scene = "scene.gltf") const {
-        const Outcome outcome = run({"render", scene, "--config", name + ".json", "--out", "again.png"});
-        ASSERT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_LE(stepsApart(readImage(folder / (name + ".png")), readImage(folder / "again.png")), 1.01) << name;
-    }
-};
 
 TEST_F(ViewTest, EscapeClosesTheWindowAndLeavesTheLog) {
     const Outcome outcome = view(R"(
@@ -193,11 +103,11 @@ TEST_F(ViewTest, KeysAndMouseMoveTheHead) {
 xdotool mousemove --window "$window" 40 60
 xdotool keydown w; sleep 0.4; xdotool keyup w
 xdotool key F12; there dioptre-0001.json
-xdotool mousedown 3; sleep 0.3; xdotool mousemove_relative 20 0; sleep 0.3; xdotool mouseup 3
+drag 3 10 0
 xdotool key F12; there dioptre-0002.json
 xdotool click 4; sleep 0.3
 xdotool key F12; there dioptre-0003.json
-xdotool mousedown 1; sleep 0.3; xdotool mousemove_relative 0 10; sleep 0.3; xdotool mouseup 1
+drag 1 0 5
 xdotool key F12; there dioptre-0004.json
 xdotool key Home; sleep 0.3
 xdotool key F12; there dioptre-0005.json
@@ -277,10 +187,11 @@ TEST_F(ViewTest, ValuesInThePanelAreSetByTheMouse) {
     // The search leaves one row: name, value, unit.
     const Outcome outcome = view(R"(
 find() { xdotool key ctrl+f; sleep 0.4; xdotool type --delay 30 "$1"; sleep 0.4; }
+xdotool windowsize --sync "$window" 640 480
 find swap-eyes
-xdotool mousemove --window "$window" 170 95; sleep 0.2; xdotool click 1; sleep 0.4
+click 150 99
 find ipd-mm
-xdotool mousemove --window "$window" 185 95; sleep 0.2
+xdotool mousemove --window "$window" 185 99; sleep 0.2
 xdotool mousedown 1; sleep 0.2; xdotool mousemove_relative 8 0; sleep 0.2; xdotool mousemove_relative 8 0; sleep 0.2
 xdotool mouseup 1; sleep 0.4
 xdotool key F12; there dioptre-0001.json
@@ -365,6 +276,7 @@ TEST_F(ViewTest, APortInUseIsRefusedBeforeAWindowOpens) {
     expectRefused(run({"view", "scene.gltf", "--gaze-input", "udp:70000"}), {"--gaze-input", "70000", "1..65535"});
 }
 
+// Where the monitor that is asked for is not there, the one that the window is on will do.
 TEST_F(ViewTest, FullScreenAndBack) {
     const Outcome outcome = view(R"(
 xdotool key F11; sleep 1
@@ -372,7 +284,7 @@ xdotool getwindowgeometry "$window"
 xdotool key F11; sleep 1
 xdotool getwindowgeometry "$window"
 )",
-                                 "scene.gltf", true);
+                                 "scene.gltf --monitor nowhere", true);
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     const std::size_t full = outcome.out.find("Geometry: 800x600"), back = outcome.out.find("Geometry: 320x120");
     EXPECT_NE(full, std::string::npos) << outcome.out;
@@ -398,6 +310,31 @@ xdotool key F12; there dioptre-0001.json
     EXPECT_EQ(readImage(folder / "panel.png").width, 320);
     EXPECT_GT(stepsApart(readImage(folder / "panel.png"), readImage(folder / "keys.png")), 100.0);
     expectDrawnAgain("dioptre-0001");
+}
+
+TEST_F(ViewTest, TheWindowTellsOfASceneThatIsBeingMadeAndClosingGivesItUp) {
+    if (std::string(DIOPTRE_GRAB).empty()) GTEST_SKIP() << "built without X11";
+    leaksAllowed = true;
+    const Outcome outcome = runProgram(DIOPTRE_WITH_DISPLAY, {"320x200", "sh", "-c", R"(
+export XDG_CACHE_HOME=$PWD/cache
+"$0" view builtin:dragons --size 160x120 & program=$!
+until window=$(xdotool search --onlyvisible --name '^Dioptre: builtin:dragons'); do
+    kill -0 $program || exit 90
+    sleep 0.1
+done
+grab() { "$grabber" "$window" "$1" || exit 93; }
+grabber=$1
+for try in $(seq 100); do
+    grab before.png; sleep 0.1; grab after.png
+    cmp -s before.png after.png || break
+done
+cmp -s before.png after.png && exit 95
+kill -TERM $program
+wait $program
+)",
+                                                              DIOPTRE_PROGRAM, DIOPTRE_GRAB});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_FALSE(there("cache/dioptre")) << "it was made to its end";
 }
 
 TEST_F(ViewTest, WithoutADisplayTheRunFailsInOneLine) {

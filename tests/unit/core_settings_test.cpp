@@ -94,7 +94,8 @@ TEST(SettingsTest, DefaultFileHoldsEverySettingWithItsBuiltInDefault) {
                                      {"context", "egl"},
                                      {"max-scene-mb", "100"},
                                      {"max-texture-side", "256"},
-                                     {"ui-scale", "2"}})
+                                     {"ui-scale", "2"},
+                                     {"monitor", "2"}})
         applySetting(settings, name, text);
     for (const Setting& setting : settingsTable())
         EXPECT_NE(setting.get(settings, setting), setting.defaultText) << setting.name << " is missing in this test";

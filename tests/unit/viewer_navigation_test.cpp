@@ -117,13 +117,23 @@ TEST(NavigationTest, ThePivotIsWhatIsInFocusWithinTheScene) {
     EXPECT_DOUBLE_EQ(flyingSpeed(Bounds()), 0.5);
 }
 
+const std::vector<Monitor> kTwo = {{"DP-1", {0, 0, 1000, 800}}, {"HDMI-1", {1000, 0, 2000, 1200}}};
+
 TEST(MonitorTest, IsTheOneThatShowsMostOfTheWindow) {
-    const std::vector<DesktopBox> two = {{0, 0, 1000, 800}, {1000, 0, 2000, 1200}};
-    EXPECT_EQ(monitorOf({100, 100, 640, 480}, two), 0u);
-    EXPECT_EQ(monitorOf({900, 100, 640, 480}, two), 1u);
-    EXPECT_EQ(monitorOf({500, 100, 640, 480}, two), 0u);
-    EXPECT_EQ(monitorOf({-5000, 0, 640, 480}, two), 0u) << "on none";
+    EXPECT_EQ(monitorOf({100, 100, 640, 480}, kTwo), 0u);
+    EXPECT_EQ(monitorOf({900, 100, 640, 480}, kTwo), 1u);
+    EXPECT_EQ(monitorOf({500, 100, 640, 480}, kTwo), 0u);
+    EXPECT_EQ(monitorOf({-5000, 0, 640, 480}, kTwo), 0u) << "on none";
     EXPECT_EQ(monitorOf({0, 0, 1, 1}, {}), 0u);
+}
+
+TEST(MonitorTest, IsFoundByNameOrNumber) {
+    EXPECT_EQ(findMonitor("HDMI-1", kTwo), 1u);
+    EXPECT_EQ(findMonitor("1", kTwo), 0u);
+    EXPECT_EQ(findMonitor("2", kTwo), 1u);
+    for (const char* missing : {"", "0", "3", "-1", "HDMI", "99999999999999999999"})
+        EXPECT_EQ(findMonitor(missing, kTwo), std::nullopt) << missing;
+    EXPECT_EQ(monitorList(kTwo), "1 DP-1, 2 HDMI-1");
 }
 
 }  // namespace
