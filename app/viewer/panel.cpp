@@ -25,8 +25,8 @@ const Panel::Group Panel::kGroups[] = {
 
 namespace {
 
-const ImVec4 kUnchanged(0.66f, 0.69f, 0.74f, 1.0f), kWarning(1.0f, 0.75f, 0.35f, 1.0f),
-    kProblem(1.0f, 0.55f, 0.45f, 1.0f);
+constexpr ImU32 kUnchanged = IM_COL32(168, 176, 189, 255), kWarning = IM_COL32(255, 191, 89, 255),
+                kProblem = IM_COL32(255, 140, 115, 255);
 
 /// Where a person looks for a setting. A new one is found where its neighbours of the command line are.
 std::string_view groupOf(const Setting& setting) {
@@ -64,7 +64,7 @@ bool disabledButton(const char* label, bool enabled, float width) {
 }
 
 struct Line {
-    ImVec4 color;
+    ImU32 color;
     const std::string& text;
 };
 

@@ -73,7 +73,9 @@ void StageViews::drawNext(const GpuScene& scene, const View& head, const Lens& l
     small.target.bind();
     const Program& program = encode_.program();
     program.set("origin", glm::vec2(0.0f));
-    program.set("size", glm::vec2(small.target.width(), small.target.height()));
+    const glm::vec2 size(small.target.width(), small.target.height());
+    program.set("size", size);
+    program.set("eyeSize", size);
     encode_.draw();
     next_ = (next_ + 1) % stages_.size();
     ++fresh_;

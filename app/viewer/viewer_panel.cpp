@@ -67,12 +67,14 @@ void Viewer::drawInstruments(std::string_view group, Wish& wish) {
     if (group == "Display") drawDisparity();
     if (group == "Budget") instruments_.drawFrameTimes();
     if (group != "Measure") return;
-    if (split_.drawPanel()) stillFrames_ = 0;
-    instruments_.drawStages();
     if (const auto stage = stages_.draw(settings_.render.show)) {
         wish.settings.render.show = *stage;
         wish.edit = true;
     }
+    ImGui::Spacing();
+    if (split_.drawPanel()) stillFrames_ = 0;
+    ImGui::Spacing();
+    instruments_.drawStages();
 }
 
 void Viewer::drawDisparity() const {
@@ -100,7 +102,7 @@ std::string Viewer::disparityWarning() const {
     const auto most = disparity();
     if (!most || std::max(most->x, most->y) <= kComfortableDegrees) return {};
     return fmt::format(
-        "disparity {:.1f}\u00b0 in front of the screen, {:.1f}\u00b0 behind: beyond {:g}\u00b0 it is hard to fuse",
+        "disparity {:.1f}\u00b0 in front of the screen, {:.1f}\u00b0 behind it: hard to fuse beyond {:g}\u00b0",
         most->x, most->y, kComfortableDegrees);
 }
 

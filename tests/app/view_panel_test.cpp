@@ -84,6 +84,34 @@ settled difference.png split.png
     EXPECT_THAT(outcome.out, testing::HasSubstr(fmt::format("PSNR {:.1f} dB", psnr(pinhole, mipmap))));
 }
 
+TEST_F(ViewTest, StagesAreShownSmallInThePanel) {
+    if (std::string(DIOPTRE_GRAB).empty()) GTEST_SKIP() << "built without X11";
+    // The groups that are open at first are closed, the last one, Measure, is opened.
+    const Outcome outcome = view(R"(
+xdotool windowsize --sync "$window" 640 480
+xdotool key F2
+sleep 0.2
+for y in 72 97 122 222; do click 60 $y; done
+xdotool mousemove --window "$window" 600 240
+settled panel.png none.png
+)",
+                                 kSharp);
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const Image panel = readImage(folder / "panel.png");
+    const auto shown = [&](int x, int y, int c) {
+        return std::lround(255.0 * static_cast<double>(srgbFromLinear(clampUnit(panel.at(x, y, c)))));
+    };
+    // The picture, then vergence: the red square at 0.4 m is at the left, the grey wall at 4 m right of it.
+    constexpr int kY = 310, kSquare = 38, kWall = 98, kNext = 122;
+    EXPECT_NEAR(shown(kSquare, kY, 0), 231, 2);
+    EXPECT_NEAR(shown(kSquare, kY, 1), 89, 2);
+    EXPECT_NEAR(shown(kWall, kY, 0), 188, 2);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(shown(kSquare + kNext, kY, c), 219, 2) << "2.5 D of 3.5";
+        EXPECT_NEAR(shown(kWall + kNext, kY, c), 124, 2) << "0.25 D of 1.25";
+    }
+}
+
 TEST_F(ViewTest, CamerasAreLookedThroughInTurn) {
     std::string scene = read("scene.gltf");
     const auto replace = [&](const std::string& from, const std::string& to) {
