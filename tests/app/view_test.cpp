@@ -120,7 +120,8 @@ xdotool key F12; there dioptre-0005.json
     EXPECT_NE((*pose(2))[4], (*pose(1))[4]) << "a right drag turns";
     EXPECT_EQ((*pose(2))[2], (*pose(1))[2]) << "on the spot";
     EXPECT_NE((*pose(3))[2], (*pose(2))[2]) << "the wheel moves";
-    EXPECT_EQ((*pose(3))[4], (*pose(2))[4]) << "and turns nothing";
+    // A pose is written and read on the way, and its quaternion made a unit again.
+    EXPECT_NEAR((*pose(3))[4], (*pose(2))[4], 1e-12) << "and turns nothing";
     EXPECT_NE((*pose(4))[1], (*pose(3))[1]) << "a left drag goes around";
     EXPECT_FALSE(pose(5).has_value()) << "Home is the camera";
     for (const int n : {1, 4, 5}) expectDrawnAgain(fmt::format("dioptre-{:04}", n));
