@@ -267,7 +267,9 @@ bool Viewer::pictureIsStill() {
         heldTime_.reset();
     else if (!heldTime_)
         heldTime_ = lastInput_.time;
-    return still && show_->maker().progress() >= 1.0 && (!split_.on() || split_.finished());
+    // Only a picture made while time stood still could refine.
+    const bool mayRefine = lastInput_.refineMilliseconds > 0.0;
+    return still && mayRefine && show_->maker().progress() >= 1.0 && (!split_.on() || split_.finished());
 }
 
 bool Viewer::focusRests() const {
