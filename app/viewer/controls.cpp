@@ -116,7 +116,8 @@ void Viewer::act(Action action, Wish& wish) {
         case Action::fullScreen:
             return toggleFullScreen();
         case Action::picture:
-            return beginPicture();
+            wish.picture = true;
+            return;
         case Action::record:
             return toggleRecording();
         case Action::nextCamera:

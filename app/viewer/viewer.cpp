@@ -116,10 +116,11 @@ void Viewer::frame() {
 
     // Picture
     if (show_) {
-        if (wanted_)
+        if (!wanted_) apply(wish);
+        if (wish.picture)
+            beginPicture();
+        else if (wanted_)
             drawPictureToBeWritten();
-        else
-            apply(wish);
         if (!wanted_ && !pictureMade_ && !pictureIsStill()) makePicture(inputNow());
     }
 

@@ -53,6 +53,7 @@ class Viewer {
         Settings settings;
         bool byHand = false;  // the head was moved: no edit to be taken back
         bool edit = false, goesOn = false;
+        bool picture = false;  // to be written, once all else is as wished
         int history = 0;  // -1: undo, 1: redo
     };
 

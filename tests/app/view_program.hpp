@@ -51,7 +51,7 @@ title() { # waits for one that holds $1
     exit 91
 }
 there() { # waits for a file
-    for try in $(seq 100); do
+    for try in $(seq 600); do
         [ -s "$1" ] && return
         sleep 0.1
     done
