@@ -36,6 +36,8 @@ class EyePicture {
 
     /// Of the technique that drew last. Refining draws nothing that counts.
     const Technique& technique() const { return *drawnBy_; }
+    /// Of what it drew, 0..1; 0: nothing yet.
+    double progress() const { return drawnBy_ ? drawnBy_->progress() : 0.0; }
     std::size_t bytes() const;
 
   private:

@@ -103,7 +103,7 @@ void PlannedPictures::cut() {
 
 double PlannedPictures::progress() const {
     double least = 1.0;
-    for (const Eye& eye : eyes_) least = std::min(least, eye.picture.technique().progress());
+    for (const Eye& eye : eyes_) least = std::min(least, eye.picture.progress());
     return least;
 }
 

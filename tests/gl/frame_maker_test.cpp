@@ -310,6 +310,7 @@ TEST_F(FrameMakerGLTest, ChangedSettingsDrawWhatAFreshOneDraws) {
     for (const auto& [name, value] : edits) {
         applySetting(s, name, value);
         maker.change(scene, s);
+        EXPECT_GE(maker.progress(), 0.0) << name << ": also before the next frame";
         time -= 1.0;  // a jump back: focus is settled, as in a first frame
         FrameMaker fresh(scene, s);
         EXPECT_EQ(planText(maker.make(at(time)).plan), planText(fresh.make(at(time)).plan));
