@@ -54,7 +54,7 @@ class Viewer {
         bool byHand = false;  // the head was moved: no edit to be taken back
         bool edit = false, goesOn = false;
         bool picture = false;  // to be written, once all else is as wished
-        int history = 0;  // -1: undo, 1: redo
+        int history = 0;       // -1: undo, 1: redo
     };
 
     void listen();
@@ -133,7 +133,7 @@ class Viewer {
     std::string dropped_;
     bool woken_ = true;
     bool announced_ = false;  // that a scene is about to be shown
-    int framesToDraw_ = 0;  // of the window, though the picture may be the same
+    int framesToDraw_ = 0;    // of the window, though the picture may be the same
     bool dragging_[3] = {};
     glm::dvec2 pointer_{0.0}, dragged_[3] = {};  // pixels, while each button was down
     Stance stance_;
