@@ -108,6 +108,8 @@ void Viewer::frame() {
     framesToDraw_ = std::max(0, framesToDraw_ - 1);
     takeScene();
     pictureMade_ = false;
+    // Not after the panel, whose small pictures must live until it is drawn
+    if (show_ && !wanted_) drawForInstruments();
 
     // Interface: what is wished for
     gui_.begin(settings_.system.uiScale);
@@ -123,8 +125,6 @@ void Viewer::frame() {
             drawPictureToBeWritten();
         if (!wanted_ && !pictureMade_ && !pictureIsStill()) makePicture(inputNow());
     }
-
-    if (show_ && !wanted_) drawForInstruments();
 
     // Both to the window
     PictureSize window, pixels;

@@ -94,9 +94,15 @@ sleep 0.2
 for y in 72 97 122 222; do click 60 $y; done
 xdotool mousemove --window "$window" 600 240
 settled panel.png none.png
+for technique in pinhole accumulate mipmap; do # each has other stages
+    setting technique $technique
+    title $technique
+    settled "$technique.png" none.png
+done
 )",
                                  kSharp);
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.err, testing::Not(testing::HasSubstr("GL_INVALID")));
     const Image panel = readImage(folder / "panel.png");
     const auto shown = [&](int x, int y, int c) {
         return std::lround(255.0 * static_cast<double>(srgbFromLinear(clampUnit(panel.at(x, y, c)))));
