@@ -89,7 +89,16 @@ void Viewer::pointerMoved(glm::dvec2 to) {
 }
 
 void Viewer::takeWishes(Wish& wish) {
-    for (const Action action : std::exchange(actions_, {})) act(action, wish);
+    // What is taken back, and what comes after it, is of settings that others are already there in: one step a frame.
+    const std::vector<Action> actions = std::exchange(actions_, {});
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+        const bool steps = actions[i] == Action::undo || actions[i] == Action::redo;
+        if (!(steps && wish.edit)) act(actions[i], wish);
+        if (!steps) continue;
+        actions_.assign(actions.begin() + static_cast<std::ptrdiff_t>(wish.edit ? i : i + 1), actions.end());
+        framesToDraw_ = std::max(framesToDraw_, 1);
+        break;
+    }
     if (!dropped_.empty()) open(std::exchange(dropped_, {}), wish);
     const double now = glfwGetTime();
     if (show_) moveByHand(wish);
@@ -180,8 +189,13 @@ void Viewer::moveByHand(Wish& wish) {
     const View& view = show_->maker().head();
     const Frustum& f = view.frustum;
     const Placement place = picture();
-    const bool halves = settings_.view.display == DisplayChoice::sideBySide && settings_.view.eye == EyeChoice::both;
-    const double tangentPerPixel = (f.right - f.left) / std::max(1.0, place.width * (halves ? 0.5 : 1.0));
+    // Of one eye's picture, which may be squeezed
+    const DisplayChoice display = settings_.view.eye == EyeChoice::both ? settings_.view.display : DisplayChoice::mono;
+    const bool beside = display == DisplayChoice::sideBySide || display == DisplayChoice::sideBySideHalf;
+    const glm::dvec2 pixels(place.width * (beside ? 0.5 : 1.0),
+                            place.height * (display == DisplayChoice::topBottom ? 0.5 : 1.0));
+    const glm::dvec2 tangentPerPixel =
+        glm::dvec2(f.right - f.left, f.top - f.bottom) / glm::max(pixels, glm::dvec2(1.0));
     bool any = false;
 
     if (moveLine()) {
@@ -203,7 +217,7 @@ void Viewer::moveByHand(Wish& wish) {
         else if (button == ImGuiMouseButton_Left)
             stance = orbit(stance, {-moved.x * kOrbitPerPixel, moved.y * kOrbitPerPixel});
         else  // what is seen follows the hand
-            stance = look(stance, {-moved.x * tangentPerPixel, moved.y * tangentPerPixel});
+            stance = look(stance, {-moved.x * tangentPerPixel.x, moved.y * tangentPerPixel.y});
     }
     if (io.MouseWheel != 0.0f && !io.WantCaptureMouse) {
         stance = zoom({stance.pose, pivot}, static_cast<double>(io.MouseWheel));

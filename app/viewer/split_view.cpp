@@ -131,6 +131,9 @@ void SplitView::measure(const FrameMaker& maker) {
     }
     if (measured_ || !measurable()) return;
     outdated_ = false;
+    // Until both are of the same settings
+    const Texture& composed = maker.composedTexture();
+    if (composed.width() != picture_->width() || composed.height() != picture_->height()) return;
     measuring_ = std::async(std::launch::async, [a = maker.composed(), b = imageOf(*picture_)] {
         return Distance{psnr(b, a), ssim(b, a)};
     });

@@ -170,16 +170,17 @@ void Viewer::takeScene() {
         input.time = settings.view.time;
         if (input.gaze) input.gaze->time = input.time;
         report_ = &show->maker().make(input);  // what is wrong with the settings shows here
+        finishRecording();                     // what was recorded so far is of the scene before
         show_ = std::move(show);
         stages_ = {};  // what they keep is of the other scene
         split_ = {};
+        history_ = {};
         settings_ = settings;
         command_.scene = loader_.name();
         start_ = glfwGetTime() - settings.view.time;
         heldTime_.reset();
         stillFrames_ = 0;
         wanted_.reset();
-        recording_.reset();
         error_.clear();
         framesToDraw_ = kFramesAfterEvent;
     } catch (const std::exception& problem) {
@@ -194,12 +195,16 @@ void Viewer::takeScene() {
 
 /// Makes other settings those that are shown. What is wrong with them the panel says, and they stay as they were.
 void Viewer::apply(const Wish& wish) {
-    if (!sameSettings(wish.settings, settings_)) {
+    const Settings before = settings_;
+    if (!sameSettings(wish.settings, before)) {
         try {
             show_->change(wish.settings);
+            settings_ = wish.settings;
             stillFrames_ = 0;
+            heldTime_.reset();
             makePicture(inputNow());
         } catch (const std::runtime_error& problem) {
+            settings_ = before;
             show_->change(settings_);
             stillFrames_ = 0;
             panel_.complain(problem.what());
@@ -210,12 +215,12 @@ void Viewer::apply(const Wish& wish) {
     if (wish.history < 0) history_.undo();
     if (wish.history > 0) history_.redo();
     if (wish.edit) {
-        Settings before = settings_;
-        before.view.pose = wish.byHand ? wish.settings.view.pose : before.view.pose;
-        history_.edited(before, wish.settings, wish.goesOn);
+        Settings taken = before;
+        taken.view.pose = wish.byHand ? wish.settings.view.pose : before.view.pose;
+        history_.edited(taken, wish.settings, wish.goesOn);
     }
     const std::string& monitor = wish.settings.system.monitor;
-    if (monitor != settings_.system.monitor && window_->isFullScreen()) fillMonitor(monitor);
+    if (monitor != before.system.monitor && window_->isFullScreen()) fillMonitor(monitor);
     settings_ = wish.settings;
 }
 
@@ -234,6 +239,7 @@ FrameMaker::Input Viewer::inputNow() {
     if (!settings_.focus.gazeTrace.empty()) return input;
     if (gazeInput_) {
         input.gaze = gazeInput_->gaze().at(glfwGetTime());
+        input.tracked = true;
         input.gaze->time = input.time;
     } else if (settings_.focus.gazeSource == GazeSource::pointer) {
         const auto pointer = pointerGaze();
@@ -371,7 +377,7 @@ void Viewer::drawComparison() {
 
 void Viewer::drawOver() {
     int place = 0;
-    if (split_.on() && report_) drawComparison();
+    if (split_.on() && report_ && !wanted_) drawComparison();
     if (loader_.running())
         drawProgress(announced_ ? Progress{"preparing " + loader_.name(), 1.0}
                                 : Progress{fmt::format("loading {}, {:.0f} s", loader_.name(), loader_.seconds()),

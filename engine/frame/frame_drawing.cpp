@@ -18,8 +18,8 @@ std::vector<EyeFrame> FrameMaker::eyeFrames(std::span<const View> views, PassLog
 bool FrameMaker::unseenNow(const Input& input) {
     constexpr double kLongestBlink = 0.4;  // seconds
     const double time = input.time;
-    // A pointer that leaves the picture does not blink.
-    if (settings_.focus.focus.mode != FocusMode::gaze || input.alone || input.gaze) return false;
+    const bool pointed = input.gaze && !input.tracked;
+    if (settings_.focus.focus.mode != FocusMode::gaze || input.alone || pointed) return false;
     if (report_.gaze.valid)
         lostAt_.reset();
     else if (!lostAt_ || time < *lostAt_)

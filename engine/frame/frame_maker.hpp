@@ -71,6 +71,8 @@ class FrameMaker {
         bool refines = false;
         // No frame follows: there is nothing to learn for.
         bool alone = false;
+        // `gaze` is an eye's, which blinks and darts; a pointer only leaves the picture.
+        bool tracked = false;
     };
     /// What moves in the scene is where it is at the input's time, the start view's camera included.
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts

@@ -84,6 +84,20 @@ settled difference.png split.png
     EXPECT_THAT(outcome.out, testing::HasSubstr(fmt::format("PSNR {:.1f} dB", psnr(pinhole, mipmap))));
 }
 
+TEST_F(ViewTest, WhatIsComparedMayChangeItsSize) {
+    const Outcome outcome = view(R"(
+xdotool key t
+title 'dB, SSIM'
+for display in 1 2 3; do
+    xdotool key v
+    sleep 0.3
+    title 'dB, SSIM'
+done
+)",
+                                 kSharp);
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+}
+
 TEST_F(ViewTest, StagesAreShownSmallInThePanel) {
     if (std::string(DIOPTRE_GRAB).empty()) GTEST_SKIP() << "built without X11";
     // The groups that are open at first are closed, the last one, Measure, is opened.
@@ -105,7 +119,7 @@ done
     EXPECT_THAT(outcome.err, testing::Not(testing::HasSubstr("GL_INVALID")));
     const Image panel = readImage(folder / "panel.png");
     const auto shown = [&](int x, int y, int c) {
-        return std::lround(255.0 * static_cast<double>(srgbFromLinear(clampUnit(panel.at(x, y, c)))));
+        return std::round(255.0 * static_cast<double>(srgbFromLinear(clampUnit(panel.at(x, y, c)))));
     };
     // The picture, then vergence: the red square at 0.4 m is at the left, the grey wall at 4 m right of it.
     constexpr int kY = 310, kSquare = 38, kWall = 98, kNext = 122;
