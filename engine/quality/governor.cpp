@@ -264,7 +264,10 @@ Decision Governor::decision(const Candidates& candidates, const Situation& s, Mo
     refined_.reset();
     if (s.requirements.mayRefine && !s.unseen) {
         const Plan reference{TechniqueChoice::reference, {}, {}, {}};
-        if (const auto now = candidates.within(reference, kTarget * std::max(s.budgetMs, s.refineMs), 1.0, 1)) {
+        auto now = candidates.within(reference, kTarget * std::max(s.budgetMs, s.refineMs), 1.0, 1);
+        // Who rests would rather wait for a sample than look at the plan's picture for ever.
+        if (!now && s.refineMs > 0.0) now = candidates.priced({TechniqueChoice::reference, {}, 1, {}});
+        if (now) {
             refined_ = now->plan;
             d.refinement = {Plan{TechniqueChoice::reference, {}, kMostSamples, {}}, *now->plan.samples,
                             now->milliseconds, candidates.samplesToReach(*current_)};

@@ -153,7 +153,9 @@ TEST_F(GazeProbeGLTest, FoliageIsLookedThroughUntilItFillsHalfOfTheCone) {
             TextureImage leaves{"leaves", 2, 2, {}};
             for (int i = 0; i < 4; ++i) {
                 const bool leaf = (i == 0) != dense;
-                leaves.rgba.insert(leaves.rgba.end(), {90, 200, 60, leaf ? there : gone});
+                for (const std::uint8_t value :
+                     {std::uint8_t{90}, std::uint8_t{200}, std::uint8_t{60}, leaf ? there : gone})
+                    leaves.rgba.push_back(value);
             }
             SceneBuilder b;
             b.wall(4.0, b.unlit(glm::vec3(0.5f)));
