@@ -33,7 +33,8 @@ namespace dioptre {
 struct Situation {
     double now = 0.0;       // seconds, by a clock that should not run backwards; if it does, frames' times stand in
     double budgetMs = 0.0;  // of a frame, all eyes; not > 0: the cheapest plan
-    double refineMs = 0.0;  // what a frame that refines a still view may take, where that is more; one sample in any case
+    double refineMs =
+        0.0;  // what a frame that refines a still view may take, where that is more; one sample in any case
     // What the frame of the last decision took, all eyes. None, or nonsense: nothing is learnt. None where something
     // else was drawn.
     std::optional<double> lastMs;
