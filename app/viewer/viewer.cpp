@@ -35,7 +35,9 @@ constexpr double kStillMilliseconds = 200.0;
 
 /// What is wrong with it is said before a window opens.
 std::unique_ptr<GazeInput> openGazeInput(const Command& command) {
-    return command.gazeInput.empty() ? nullptr : std::make_unique<GazeInput>(command.gazeInput);
+    std::unique_ptr<GazeInput> input;
+    if (!command.gazeInput.empty()) input = std::make_unique<GazeInput>(command.gazeInput);
+    return input;
 }
 
 std::unique_ptr<Window> openWindow(const Settings& settings, SceneLoader& loader) {
