@@ -195,6 +195,27 @@ TEST_F(AutoGLTest, TheStatisticsAreOfThePicture) {
     }
 }
 
+TEST_F(AutoGLTest, AnEyeBlinksAPointerDoesNot) {
+    const Scene scene = someScene();
+    Settings s = someSettings();
+    s.view.size = {48, 36};
+    s.focus.focus = {FocusMode::gaze, 0.0};
+    for (const bool tracked : {true, false}) {
+        FrameMaker maker(scene, s);
+        FrameMaker::Input input;
+        input.budgetMilliseconds = 1e6;
+        input.tracked = tracked;
+        PlanChange change = PlanChange::none;
+        for (int i = 0; i < 3; ++i) {
+            input.time = 0.02 * i;
+            input.gaze = GazeSample{input.time, {0.5, 0.5}, i < 2};
+            input.head = Pose{{0.001 * i, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+            change = maker.make(input).decision->change;
+        }
+        EXPECT_EQ(change == PlanChange::rested, tracked);
+    }
+}
+
 TEST_F(AutoGLTest, RandomFramesLeaveNothingBehind) {
     std::vector<Scene> scenes;
     scenes.push_back(someScene());

@@ -45,6 +45,15 @@ TEST_F(QuietTest, BeginsWithTheCheapestThatBlurs) {
     EXPECT_EQ(frame().plan, (Plan{TechniqueChoice::mipmap, 0, {}, {}}));
 }
 
+TEST_F(QuietTest, OnceAFramesTimeIsKnownGoesOnWithWhatIsSureToFit) {
+    situation.budgetMs = 20000.0;
+    const Decision first = frame(), second = frame();
+    EXPECT_EQ(first.plan, (Plan{TechniqueChoice::mipmap, 0, {}, {}}));
+    EXPECT_LT(second.expectedError, first.expectedError);
+    EXPECT_LE(priceOf(second.plan), 0.9 * situation.budgetMs);
+    EXPECT_EQ(second.change, PlanChange::none);
+}
+
 TEST_F(QuietTest, GoesUpOnceItIsForeseenToFitForTenFrames) {
     for (int i = 0; i < 9; ++i) EXPECT_EQ(frame().change, PlanChange::none) << i;
     const Decision d = frame();
