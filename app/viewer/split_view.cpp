@@ -72,7 +72,7 @@ Plan SplitView::planFor(TechniqueChoice technique, RenderSettings render) {
 }
 
 void SplitView::draw(const FrameMaker& maker, const Settings& settings, double budgetMilliseconds) {
-    const std::vector<View> views = maker.eyeViews();
+    const std::vector<View>& views = maker.eyeViews();
     if (made_ != other_ || techniques_.size() != views.size()) {
         techniques_.clear();
         for (std::size_t i = 0; i < views.size(); ++i) techniques_.push_back(makeTechnique(*other_));
