@@ -38,7 +38,7 @@ void DepthView::survey(const GpuScene& scene, const View& head) {
     target_.bind();
     const float infinitelyFar = 0.0f;
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &infinitelyFar);
-    scene.drawDepth(small);
+    scene.drawDepth(small, 1.0);
 
     // Stored depth is near × vergence.
     std::vector<float> depths = readTexture(depth_, GL_DEPTH_COMPONENT, 1);

@@ -4,6 +4,9 @@ namespace dioptre {
 
 namespace {
 
+// The median over a cone tells no finer.
+constexpr double kDetailPx = 1.0;
+
 /// The part of a view that falls on a region of its pixels (from the top left), as a view of its own.
 View cropped(const View& view, const PixelRegion& region) {
     View part = view;
@@ -29,7 +32,7 @@ void GazeProbe::drawRegion(const GpuScene& scene, const View& eye, EyeReading& r
     target_.bind();
     const float infinitelyFar = 0.0f;
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &infinitelyFar);
-    scene.drawDepth(cropped(eye, region));
+    scene.drawDepth(cropped(eye, region), kDetailPx);
     const std::size_t bytes = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height) * 4;
     reading.pixels = Buffer(bytes, nullptr, true, "depth under the gaze");
     glBindBuffer(GL_PIXEL_PACK_BUFFER, reading.pixels.name());

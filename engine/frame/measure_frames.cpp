@@ -76,7 +76,7 @@ VergenceStatistics visibleVergences(const GpuScene& scene, const View& view) {
     target.bind();
     const float infinitelyFar = 0.0f;
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitelyFar);
-    scene.drawDepth(view);
+    scene.drawDepth(view, 0.0);
     std::vector<double> vergences;
     for (const float stored : readTexture(depth, GL_DEPTH_COMPONENT, 1))
         if (stored > 0.0f) vergences.push_back(static_cast<double>(stored) / view.near.value);

@@ -137,11 +137,11 @@ double doublings(double a, double b, double least) {
     return std::log2(sane(a) / sane(b));
 }
 
-/// What 1 - SSIM gains where a picture is drawn smaller and enlarged again: medians of six views of the studio and the
-/// toys through 3 and 8 mm, mipmap without msaa against 200 points of the lens. Enlarging filters: it takes from the
-/// flicker of edges as much as from sharpness at first. Through lenses it falls about as one divided by the mean CoC.
+/// What 1 - SSIM gains where a picture is drawn smaller and enlarged again, by `bench_governor sizes`. Enlarging filters:
+/// it takes from the flicker of edges as much as from sharpness at first. Blur hides it, about as one divided by the
+/// mean CoC.
 double errorOfScale(int eighths, double meanCocPx) {
-    constexpr double kSharp[] = {0.25, 0.145, 0.077, 0.037, 0.012, 0.004, 0.0};  // 2/8 to 8/8
+    constexpr double kSharp[] = {0.323, 0.192, 0.097, 0.053, 0.022, 0.001, 0.0};  // 2/8 to 8/8
     constexpr double kHalvedByPx = 5.0;
     return kSharp[std::clamp(eighths, kLeastEighths, 8) - kLeastEighths] /
            (1.0 + std::max(meanCocPx, 0.0) / kHalvedByPx);

@@ -27,4 +27,18 @@ bool mayBeSeen(const View& view, const Lens* lens, const ViewBox& box) {
     return box.farthest() >= view.near.value;
 }
 
+double levelOfError(std::span<const float> errors, double allowed) {
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+        const double finer = static_cast<double>(errors[i - 1]), coarser = static_cast<double>(errors[i]);
+        if (coarser > allowed) return static_cast<double>(i - 1) + std::max(0.0, allowed - finer) / (coarser - finer);
+    }
+    return static_cast<double>(errors.size() - 1);
+}
+
+double levelWithin(const View& view, const DrawList::Seen& seen, double pixels) {
+    const double pixelsPerMetre =
+        seen.scale * focalLengthPixels(view).x / std::max(view.near.value, seen.box.nearest());
+    return levelOfError(seen.errors, pixels / pixelsPerMetre);
+}
+
 }  // namespace dioptre

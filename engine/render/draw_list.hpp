@@ -86,4 +86,10 @@ class DrawList {
     std::vector<Command> arranged_;
 };
 
+/// The coarsest level with at most that error, and as much of the next as lies between their errors; these increase.
+double levelOfError(std::span<const float> errors, double allowed);
+
+/// The same of an item by what its error takes of the view where the item is nearest, pixels.
+double levelWithin(const View& view, const DrawList::Seen& seen, double pixels);
+
 }  // namespace dioptre

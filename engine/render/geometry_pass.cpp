@@ -1,5 +1,7 @@
 #include "render/geometry_pass.hpp"
 
+#include "render/technique.hpp"
+
 namespace dioptre {
 
 void GeometryPass::resize(int width, int height, int msaa) {
@@ -21,20 +23,21 @@ void GeometryPass::resize(int width, int height, int msaa) {
     }
 }
 
-void GeometryPass::draw(const GpuScene& scene, const View& view, float exposure, int msaa, PassLog& log) {
-    resize(view.width, view.height, msaa);
+void GeometryPass::draw(const EyeFrame& frame) {
+    const int msaa = frame.msaa;
+    resize(frame.view.width, frame.view.height, msaa);
     {
-        PassScope scope(log, "geometry");
+        PassScope scope(frame.log, "geometry");
         const Framebuffer& drawn = msaa > 0 ? samplesTarget_ : target_;
         drawn.bind();
         const float black[] = {0.0f, 0.0f, 0.0f, 1.0f};
         const float infinitelyFar = 0.0f;
         glClearNamedFramebufferfv(drawn.name(), GL_COLOR, 0, black);
         glClearNamedFramebufferfv(drawn.name(), GL_DEPTH, 0, &infinitelyFar);
-        scene.drawRadiance(view, exposure);
+        frame.scene.drawRadiance(frame.view, frame.exposure, frame.detailPx);
     }
     if (msaa > 0) {
-        PassScope scope(log, "resolve");
+        PassScope scope(frame.log, "resolve");
         target_.bind();
         samplesColor_.bind(0);
         samplesDepth_.bind(1);
@@ -45,7 +48,7 @@ void GeometryPass::draw(const GpuScene& scene, const View& view, float exposure,
         glDepthFunc(GL_GREATER);
         glDisable(GL_DEPTH_TEST);
     } else {
-        log.skip("resolve", "one sample a pixel");
+        frame.log.skip("resolve", "one sample a pixel");
     }
 }
 

@@ -4,15 +4,16 @@
 #include "gl/objects.hpp"
 #include "gl/pass.hpp"
 #include "gl/program.hpp"
-#include "render/gpu_scene.hpp"
 
 namespace dioptre {
 
+struct EyeFrame;
+
 class GeometryPass {
   public:
-    /// Draws the scene at the view's size; msaa is 0 or 4. A resolved pixel has the mean radiance of its samples and
+    /// Draws the scene at the view's size. A resolved pixel has the mean radiance of its samples and
     /// the nearest depth, so that an edge in focus belongs to what is in focus and never to the blur behind it.
-    void draw(const GpuScene& scene, const View& view, float exposure, int msaa, PassLog& log);
+    void draw(const EyeFrame& frame);
 
     const Texture& color() const { return color_; }  // RGBA16F, linear radiance × exposure, background black
     const Texture& depth() const { return depth_; }  // D32F, near/d; 0 is infinitely far

@@ -256,9 +256,18 @@ int GpuScene::mostMatrices() {
     return GLAD_GL_ARB_shader_viewport_layer_array ? gpu::kMostMatrices : 1;
 }
 
-void GpuScene::drawRadiance(const View& view, float exposure) const {
+void GpuScene::seeWhole(const View& view, double detailPx) const {
     see(whole_, view, nullptr);
-    arrange(whole_, 1);
+    std::vector<std::int8_t> levels;
+    // Without error there are levels, too, whose triangles are rounded otherwise.
+    if (detailPx > 0.0)
+        for (const DrawList::Seen& seen : whole_.seen())
+            levels.push_back(static_cast<std::int8_t>(levelWithin(view, seen, detailPx)));
+    arrange(whole_, 1, levels);
+}
+
+void GpuScene::drawRadiance(const View& view, float exposure, double detailPx) const {
+    seeWhole(view, detailPx);
     const glm::mat4 clip(clipFromView(view));
     const Through through{{&clip, 1}, exposure};
     const std::vector<Run>& runs = whole_.runs_;
@@ -271,9 +280,8 @@ void GpuScene::drawRadiance(const View& view, float exposure) const {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-void GpuScene::drawDepth(const View& view) const {
-    see(whole_, view, nullptr);
-    arrange(whole_, 1);
+void GpuScene::drawDepth(const View& view, double detailPx) const {
+    seeWhole(view, detailPx);
     const glm::mat4 clip(clipFromView(view));
     drawRuns(whole_, whole_.runs_, Phase::depth, {{&clip, 1}});
 }

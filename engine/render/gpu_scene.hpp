@@ -70,8 +70,9 @@ class GpuScene {
     /// × exposure and depth, or depth alone. The depth buffer must have been cleared to 0 (reversed depth). The depth
     /// left is that of the surface which gives the pixel most of its light: of a blended one where its alpha is 0.5 or
     /// more.
-    void drawRadiance(const View& view, float exposure) const;
-    void drawDepth(const View& view) const;
+    /// Levels of detail may be off by `detailPx` pixels of the view; 0: all at level 0.
+    void drawRadiance(const View& view, float exposure, double detailPx) const;
+    void drawDepth(const View& view, double detailPx) const;
 
     /// What `view` sees or, with a lens, what any of its points does. Draws nothing before it is arranged.
     void see(DrawList& list, const View& view, const Lens* lens) const;
@@ -137,6 +138,7 @@ class GpuScene {
     void drawBlended(const DrawList& list, const Through& through) const;
     void drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const;
     void bind(const Run& run) const;
+    void seeWhole(const View& view, double detailPx) const;
 
     std::vector<Item> items_;  // sorted by state
     struct Levels {            // level 0 first

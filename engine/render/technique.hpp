@@ -21,8 +21,8 @@ struct EyeFrame {
     const View& view;
     const Lens& lens;
     float exposure = 1.0f;  // factor on radiance
-    int msaa = 0;
-    ShowStage show;  // a stage of the technique instead of the picture
+    int msaa = 0;           // 0 or 4
+    ShowStage show;         // a stage of the technique instead of the picture
     PassLog& log;
     int samples = 512;    // reference, accumulate: points of the lens, >= 1
     int subsamples = 0;   // accumulate: more points of the lens for each, on average; 0..16
@@ -30,6 +30,7 @@ struct EyeFrame {
     // reference, accumulate: 0 draws all samples now; more: at most so many more in this picture, which goes on from
     // the last one while nothing else here changes.
     int samplesNow = 0;
+    double detailPx = 0.0;  // pinhole, mipmap: what levels of detail may be off, pixels of the view; 0: level 0
 };
 
 class Technique {

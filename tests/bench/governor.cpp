@@ -2,6 +2,7 @@
 // how seen its changes are.
 //
 //   bench_governor [CASE...]      cases SCENE:MS, default studio:30 studio:60 studio:120 studio:400 toys:200 toys:400
+//   bench_governor sizes          what smaller pictures lose, without levels of detail and with those they are drawn with
 //   bench_governor switches       frame-to-frame SSIM through changes of plan, against the reference's over the same motion
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +21,8 @@
 #include "core/resources.hpp"
 #include "core/text.hpp"
 #include "frame/frame_maker.hpp"
+#include "frame/measure_frames.hpp"
+#include "frame/measure_lens.hpp"
 #include "gl/context.hpp"
 #include "metrics/metrics.hpp"
 #include "scene/builtin.hpp"
@@ -163,6 +167,55 @@ void judge(const std::string& name, double budget) {
     std::fflush(stdout);
 }
 
+/// 1 - SSIM beyond that of the whole size, against 200 points of the lens; `sharp`: the median over views after taking out
+/// that blur hides it, what quality/trade_table.cpp has.
+void sizes() {
+    constexpr int kSizes[] = {7, 6, 5, 4, 3, 2};
+    fmt::print("mipmap, msaa 0, 640x480; by eighths of the size\n{:34} {:>8}", "", "CoC, px");
+    for (const int eighths : kSizes) fmt::print("{:>7}", eighths);
+    fmt::print("\n");
+    for (const bool levels : {false, true}) {
+        std::map<int, std::vector<double>> sharp;
+        for (const char* name : {"studio", "toys"}) {
+            const Stage stage(name);
+            for (const double diameterMm : {3.0, 8.0}) {
+                for (const double metres : {0.7, 1.5, 3.0}) {
+                    Settings s;
+                    s.view.eye = EyeChoice::centre;
+                    s.lens.apertureMm = diameterMm;
+                    s.focus.focus = {FocusMode::metres, metres};
+                    s.render.technique = TechniqueChoice::mipmap;
+                    FrameMaker maker(stage.scene, s);
+                    if (levels) maker.addLevels(stage.levels);
+                    const FrameReport& report = maker.make({});
+                    const Image reference = maker.pictureBy({TechniqueChoice::reference, {}, 200, {}}, 0);
+                    const Plan plan{TechniqueChoice::mipmap, 0, {}, {}};
+                    const double whole = ssim(maker.pictureBy(plan, 0), reference);
+                    const View& view = maker.eyeViews().front();
+                    const Lens& lens = report.lens.lens;
+                    const double off = visibleVergences(maker.scene(), view).meanDifference(lens.focus.value);
+                    const double coc = 2.0 * std::abs(cocRadiusPixels(lens, focalLengthPixels(view).x,
+                                                                      Dioptres(lens.focus.value + off)));
+                    fmt::print("{:6} {} levels, {:g} mm, {:3g} m {:8.1f}", name, levels ? "with   " : "without",
+                               diameterMm, metres, coc);
+                    for (const int eighths : kSizes) {
+                        Plan smaller = plan;
+                        smaller.eighths = eighths;
+                        const double lost = whole - ssim(maker.pictureBy(smaller, 0), reference);
+                        sharp[eighths].push_back(lost * (1.0 + coc / 5.0));
+                        fmt::print("{:7.3f}", lost);
+                    }
+                    fmt::print("\n");
+                    std::fflush(stdout);
+                }
+            }
+        }
+        fmt::print("sharp, {} levels                      ", levels ? "with   " : "without");
+        for (const int eighths : kSizes) fmt::print("{:7.3f}", median(sharp[eighths]));
+        fmt::print("\n");
+    }
+}
+
 /// A slow dolly while budgets come and go. A technique that flickers by itself does so in every frame: what a change adds
 /// is the dip of the frames after it beyond the usual dip of the plans on both sides.
 void switches() {
@@ -230,6 +283,10 @@ int main(int argc, char** argv) try {
     std::vector<std::string> cases(argv + 1, argv + argc);
     if (cases.empty()) cases = {"studio:30", "studio:60", "studio:120", "studio:400", "toys:200", "toys:400"};
     for (const std::string& which : cases) {
+        if (which == "sizes") {
+            sizes();
+            continue;
+        }
         if (which == "switches") {
             switches();
             continue;

@@ -174,6 +174,32 @@ TEST_F(AutoGLTest, SmallerPicturesAreEnlargedAndFadesAreMeans) {
     EXPECT_LT(worst, 2e-3);
 }
 
+TEST_F(AutoGLTest, PicturesBelowHalfTheSizeAreDrawnWithLevelsOfDetail) {
+    SceneBuilder b;
+    b.quad(testView(), {40.0, 30.0, 150.0, 110.0}, 1.0, b.unlit({1.0f, 1.0f, 1.0f}));
+    const Scene made = b.scene();
+    const std::vector<std::uint32_t>& indices = made.meshes.front().primitives.front().indices;
+    ASSERT_EQ(indices.size(), 6u);
+    Shot shot;
+    // Half of the square, off by 1.5 pixels of a picture of a quarter of the size
+    const double off = 1.5 / (focalLengthPixels(shot.view).x / 4.0);
+    GpuScene scene(made);
+    scene.addLevel(0, 0, {{indices.begin(), indices.begin() + 3}, static_cast<float>(off), 0.0f});
+    PassLog log;
+    const EyeFrame frame{scene, shot.view, shot.lens, 1.0f, 0, {}, log};
+    EyePicture eye;
+    const auto drawn = [&](auto draw) {
+        const std::uint64_t before = scene.trianglesDrawn();
+        draw();
+        return scene.trianglesDrawn() - before;
+    };
+    for (const TechniqueChoice choice : {TechniqueChoice::pinhole, TechniqueChoice::mipmap})
+        for (const auto& [eighths, triangles] : {std::pair(2, 1u), {3, 2u}, {4, 2u}, {8, 2u}})
+            EXPECT_EQ(drawn([&] { eye.draw({choice, 0, {}, {}, eighths}, frame); }), triangles) << eighths;
+    EXPECT_EQ(drawn([&] { scene.drawDepth(shot.view, 5.9); }), 2u);
+    EXPECT_EQ(drawn([&] { scene.drawDepth(shot.view, 6.1); }), 1u);
+}
+
 TEST_F(AutoGLTest, TheStatisticsAreOfThePicture) {
     // 0.5 m in the left quarter, nothing else: sky.
     SceneBuilder b;

@@ -193,7 +193,7 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
 const Texture& Accumulate::draw(const EyeFrame& frame) {
     if (frame.show.stage == ShowChoice::lod) return showLevels(frame);
     if (frame.show.stage != ShowChoice::none) {
-        geometry_.draw(frame.scene, frame.view, frame.exposure, 0, frame.log);
+        geometry_.draw(frame);
         return show_.draw(frame, geometry_.depth());
     }
     const int layers = GpuScene::mostMatrices();

@@ -35,17 +35,7 @@ double detailLevel(const View& view, const Lens& lens, const DrawList::Seen& see
     const double radius = cocExtent(view, lens, seen.box).smallest;
     const double asPublished = detailLevel(std::numbers::pi * radius * radius,
                                            sphereArea(view, seen.box) / (0.5 * seen.triangles), seen.levels() - 1);
-    const double pixelsPerMetre =
-        seen.scale * focalLengthPixels(view).x / std::max(view.near.value, seen.box.nearest());
-    return std::min(asPublished, levelOfError(seen.errors, kErrorOfBlur * radius / pixelsPerMetre));
-}
-
-double levelOfError(std::span<const float> errors, double allowed) {
-    for (std::size_t i = 1; i < errors.size(); ++i) {
-        const double finer = static_cast<double>(errors[i - 1]), coarser = static_cast<double>(errors[i]);
-        if (coarser > allowed) return static_cast<double>(i - 1) + std::max(0.0, allowed - finer) / (coarser - finer);
-    }
-    return static_cast<double>(errors.size() - 1);
+    return std::min(asPublished, levelWithin(view, seen, kErrorOfBlur * radius));
 }
 
 int levelOfSample(double level, int sample, int count) {

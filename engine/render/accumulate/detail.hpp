@@ -26,9 +26,6 @@ double sphereArea(const View& view, const ViewBox& box);
 /// (in focus), never above `mostLevel` (A = 0).
 double detailLevel(double cocArea, double triangleArea, int mostLevel);
 
-/// The coarsest level with at most that error, and as much of the next as lies between their errors; these increase.
-double levelOfError(std::span<const float> errors, double allowed);
-
 /// A level's error (scene/simplify.hpp) may be that share of the CoC radius: simpler surfaces shrink and are shaded
 /// otherwise, which blur does not hide. With other values here, `bench_accumulate toys --quick --reference 384 --size
 /// 512x384 --diameter 12` (fishes: 256) gave SSIM at N = 32, S = 4, equal-quality speed-up and triangles left:

@@ -146,7 +146,7 @@ void Mipmap::composite(const Blur& blur, PassLog& log) {
 }
 
 const Texture& Mipmap::draw(const EyeFrame& frame) {
-    geometry_.draw(frame.scene, frame.view, frame.exposure, frame.msaa, frame.log);
+    geometry_.draw(frame);
     resize(frame.view.width, frame.view.height);
     drawnMsaa_ = frame.msaa;
     const Blur blur = requiredBlur(frame);

@@ -4,7 +4,7 @@ namespace dioptre {
 
 const Texture& Pinhole::draw(const EyeFrame& frame) {
     msaa_ = frame.msaa;
-    geometry_.draw(frame.scene, frame.view, frame.exposure, frame.msaa, frame.log);
+    geometry_.draw(frame);
     if (frame.show.stage != ShowChoice::none) return show_.draw(frame, geometry_.depth());
     return geometry_.color();
 }

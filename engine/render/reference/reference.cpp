@@ -23,7 +23,7 @@ void Reference::addBatch(const EyeFrame& frame, int count) {
 
 const Texture& Reference::draw(const EyeFrame& frame) {
     if (frame.show.stage != ShowChoice::none) {
-        geometry_.draw(frame.scene, frame.view, frame.exposure, 0, frame.log);
+        geometry_.draw(frame);
         return show_.draw(frame, geometry_.depth());
     }
     const int layers = GpuScene::mostMatrices();
