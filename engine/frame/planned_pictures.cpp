@@ -80,7 +80,10 @@ PlannedPictures::Drawn PlannedPictures::draw(const Decision& decision, std::span
     std::vector<const Texture*> old;
     for (const Eye& eye : eyes_) old.push_back(eye.shown);
     const auto begin = [&](const Plan& plan) {
-        if (!melts || decision.fade || !before_ || methodOf(plan) == methodOf(before_->plan)) return;
+        if (!melts || decision.fade || !before_) return;
+        // A fade may be broken off where it takes too long.
+        const bool broken = before_->fade && *before_->fade + step / Decision::Fade::kSeconds < 0.99;
+        if (methodOf(plan) == methodOf(before_->plan) && !broken) return;
         for (std::size_t i = 0; !melting_ && i < eyes_.size(); ++i) eyes_[i].picture.remember(*old[i], frames[i]);
         melting_ = 0.0;
     };
@@ -91,7 +94,8 @@ PlannedPictures::Drawn PlannedPictures::draw(const Decision& decision, std::span
     if (melting_ && (*melting_ += step) >= kSeconds) melting_.reset();
     for (std::size_t i = 0; melting_ && i < eyes_.size(); ++i)
         eyes_[i].shown = &eyes_[i].picture.soften(*eyes_[i].shown, *melting_ / kSeconds, frames[i]);
-    before_ = Before{drawn.plan, frames.front().view, frames.front().scene.version()};
+    before_ = Before{drawn.plan, frames.front().view, frames.front().scene.version(),
+                     decision.fade ? std::optional(decision.fade->weight) : std::nullopt};
     return drawn;
 }
 

@@ -59,8 +59,9 @@ class PlannedPictures {
     std::optional<Plan> base_;  // of the eyes' pictures by plan; none: they are faded
     struct Before {
         Plan plan;
-        View view;                  // of the first eye
-        std::uint64_t version = 0;  // of the scene
+        View view;                   // of the first eye
+        std::uint64_t version = 0;   // of the scene
+        std::optional<double> fade;  // the weight of `plan`'s picture in one
     };
     std::optional<Before> before_;   // what was shown last
     std::optional<double> melting_;  // for so many seconds

@@ -16,7 +16,7 @@ constexpr int kForeseenFrames = 10, kSharpFrames = 10;
 constexpr int kSpeculativeFrames = 4;
 // Standard deviations that an unsure price may be too high, at first; one more after that time without anything to try.
 constexpr double kHope = 2.0, kMoreHopeSeconds = 60.0;
-constexpr double kBetweenUps = 1.0, kFadeSeconds = 0.1;
+constexpr double kBetweenUps = 1.0, kFadeSeconds = Decision::Fade::kSeconds;
 // What a method that failed must leave free when it is tried again, for each failure.
 constexpr double kMoreRoom = 0.02;
 constexpr int kMostFailures = 14;

@@ -56,8 +56,9 @@ enum class PlanChange {
 
 struct Decision {
     struct Fade {
-        Plan from;            // to be drawn, too
-        double weight = 0.0;  // of `plan`'s picture, 0..1
+        static constexpr double kSeconds = 0.1;  // of a whole one
+        Plan from;                               // to be drawn, too
+        double weight = 0.0;                     // of `plan`'s picture, 0..1
     };
     /// Instead of drawing `plan` again, a view where nothing moves may go on with the reference.
     struct Refinement {

@@ -227,7 +227,7 @@ void switches() {
     FrameMaker maker(stage.scene, s);
     maker.addLevels(stage.levels);
     struct Frame {
-        std::string method;
+        std::string method, from;  // in a fade
         double dip = 0.0;
         bool changed = false;
     };
@@ -241,10 +241,11 @@ void switches() {
         const FrameReport& report = maker.make(input);
         const Image now = maker.composed();
         const Image reference = maker.pictureBy({TechniqueChoice::reference, {}, kReferenceSamples, {}}, kMostSamples);
-        Frame frame{planText(methodOf(report.plan)), 0.0, false};
+        Frame frame{planText(methodOf(report.plan)), {}, 0.0, false};
+        if (report.decision->fade) frame.from = planText(methodOf(report.decision->fade->from));
         if (i > 0) {
             frame.dip = ssim(reference, referenceBefore) - ssim(now, before);
-            frame.changed = frame.method != frames.back().method || report.decision->fade;
+            frame.changed = frame.method != frames.back().method || !frame.from.empty();
         }
         frames.push_back(frame);
         before = now;
@@ -261,7 +262,8 @@ void switches() {
     double worst = 0.0, worstUsual = 0.0;
     for (std::size_t i = 1; i < frames.size(); ++i) {
         if (!frames[i].changed) continue;
-        const double own = std::max({0.0, usual(frames[i - 1].method), usual(frames[i].method)});
+        const std::string& from = frames[i].from.empty() ? frames[i - 1].method : frames[i].from;
+        const double own = std::max({0.0, usual(from), usual(frames[i].method)});
         double dip = -1.0;
         for (std::size_t k = i; k < std::min(frames.size(), i + kAfter); ++k) dip = std::max(dip, frames[k].dip);
         if (frames[i].method != frames[i - 1].method)

@@ -4,6 +4,7 @@
 
 #include "frame/eye_picture.hpp"
 #include "frame/frame_maker.hpp"
+#include "frame/planned_pictures.hpp"
 #include "frame/vergence_sampler.hpp"
 #include "gl_fixture.hpp"
 #include "metrics/metrics.hpp"
@@ -172,6 +173,49 @@ TEST_F(AutoGLTest, SmallerPicturesAreEnlargedAndFadesAreMeans) {
         worst = std::max(
             worst, static_cast<double>(std::abs(faded.pixels[i] - 0.75f * small.pixels[i] - 0.25f * large.pixels[i])));
     EXPECT_LT(worst, 2e-3);
+}
+
+TEST_F(AutoGLTest, AFadeThatIsBrokenOffMelts) {
+    const GpuScene scene(someScene());
+    Shot shot;
+    shot.lens = lensFor(shot.view, 6.0, 2.0, 0.5);
+    PassLog log;
+    const EyeFrame frame{scene, shot.view, shot.lens, 1.0f, 0, {}, log};
+    const Plan from{TechniqueChoice::pinhole, 0, {}, {}}, to{TechniqueChoice::reference, {}, 8, {}};
+    EyePicture alone;
+    const Image whole = readPicture(alone.draw(to, frame));
+    const auto difference = [](const Image& a, const Image& b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+            sum += static_cast<double>(std::abs(a.pixels[i] - b.pixels[i]));
+        return sum;
+    };
+    constexpr double kStep = 1.0 / 60.0;
+    for (const double weight : {0.3, 0.9}) {
+        PlannedPictures pictures(1);
+        const auto shown = [&](const Decision& decision) {
+            pictures.draw(decision, {&frame, 1}, kStep, false);
+            return readPicture(pictures.shown(0));
+        };
+        Decision decision;
+        decision.plan = to;
+        decision.fade = {from, weight};
+        const Image faded = shown(decision);
+        decision.fade.reset();
+        Image before = faded;
+        const Image after = shown(decision);
+        if (weight > 0.5) {
+            EXPECT_EQ(after.pixels, whole.pixels) << "that one was over";
+            continue;
+        }
+        EXPECT_LT(difference(faded, after), 0.2 * difference(faded, whole));
+        for (int i = 1; i < 13; ++i) {
+            const Image now = shown(decision);
+            EXPECT_LT(difference(before, now), 0.3 * difference(faded, whole)) << i;
+            before = now;
+        }
+        EXPECT_EQ(before.pixels, whole.pixels);
+    }
 }
 
 TEST_F(AutoGLTest, PicturesBelowHalfTheSizeAreDrawnWithLevelsOfDetail) {
