@@ -5,7 +5,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -21,9 +20,10 @@ constexpr double kOrbitPerPixel = 0.006;  // radians: half a turn for 500 px
 constexpr double kFast = 5.0;             // times, with Shift
 constexpr double kLongestStep = 0.1;      // s: after a nap nobody has flown on
 
-std::array<double, 7> poseNumbers(const Pose& pose) {
-    const auto& [p, q] = pose;
-    return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+/// At any time; the others wait for a scene, or until a picture to be written is finished.
+bool goesWithoutSettings(Action action) {
+    constexpr Action kAnyTime[] = {Action::help, Action::panel, Action::search, Action::fullScreen, Action::close};
+    return std::find(std::begin(kAnyTime), std::end(kAnyTime), action) != std::end(kAnyTime);
 }
 
 Viewer& viewerOf(GLFWwindow* window) {
@@ -49,7 +49,7 @@ void Viewer::listen() {
     });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         viewerOf(w).woken_ = true;
-        if (count > 0) viewerOf(w).dropped_ = paths[0];
+        if (count > 0) viewerOf(w).dropped_.emplace_back(paths[0]);
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
         viewerOf(w).woken_ = true;
@@ -90,16 +90,25 @@ void Viewer::pointerMoved(glm::dvec2 to) {
 
 void Viewer::takeWishes(Wish& wish) {
     // What is taken back, and what comes after it, is of settings that others are already there in: one step a frame.
-    const std::vector<Action> actions = std::exchange(actions_, {});
-    for (std::size_t i = 0; i < actions.size(); ++i) {
-        const bool steps = actions[i] == Action::undo || actions[i] == Action::redo;
-        if (!(steps && wish.edit)) act(actions[i], wish);
-        if (!steps) continue;
-        actions_.assign(actions.begin() + static_cast<std::ptrdiff_t>(wish.edit ? i : i + 1), actions.end());
-        framesToDraw_ = std::max(framesToDraw_, 1);
-        break;
+    bool stepped = false;
+    for (const Action action : std::exchange(actions_, {})) {
+        const bool steps = action == Action::undo || action == Action::redo;
+        const bool cancels = wanted_ && action == Action::picture;
+        const bool waits =
+            stepped || (steps && wish.edit) || (settingsWait() && !goesWithoutSettings(action) && !cancels);
+        stepped = stepped || steps;
+        if (waits)
+            actions_.push_back(action);
+        else
+            act(action, wish);
     }
-    if (!dropped_.empty()) open(std::exchange(dropped_, {}), wish);
+    if (stepped) framesToDraw_ = std::max(framesToDraw_, 1);
+    for (std::string& file : std::exchange(dropped_, {})) {
+        if (settingsWait() && isSettingsFile(file))
+            dropped_.push_back(std::move(file));
+        else
+            open(file, wish);
+    }
     const double now = glfwGetTime();
     if (show_) moveByHand(wish);
     lastFrame_ = now;
@@ -236,7 +245,7 @@ void Viewer::moveByHand(Wish& wish) {
     }
     if (!any) return;
     framesToDraw_ = std::max(framesToDraw_, 1);
-    wish.settings.view.pose = poseNumbers(stance.pose);
+    wish.settings.view.pose = numbersOf(stance.pose);
     wish.byHand = true;
 }
 

@@ -85,7 +85,7 @@ double roundUp(double value) {
 
 }  // namespace
 
-void Instruments::note(double now, const FrameReport& report, const FocusFilter& filter, DynamicsChoice dynamics) {
+void Instruments::note(double now, const FrameReport& report, const FocusFilter& filter) {
     frames_.push_back({report.milliseconds, report.plan.technique});
     budgetMs_ = report.budgetMs;
     if (!report.decision)
@@ -94,8 +94,7 @@ void Instruments::note(double now, const FrameReport& report, const FocusFilter&
         why_ = report.decision->why;
     if (frames_.size() > kFrames) frames_.pop_front();
 
-    constexpr std::string_view kDynamics[] = {"natural", "snappy", "instant"};
-    deadZone_ = focusPreset(kDynamics[static_cast<std::size_t>(dynamics)]).deadZone;
+    deadZone_ = filter.dynamics().deadZone;
     focus_.push_back({now, filter.target(), filter.focus(), filter.state()});
     while (focus_.front().time < now - kFocusSeconds) focus_.pop_front();
 

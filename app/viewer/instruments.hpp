@@ -12,7 +12,7 @@ namespace dioptre {
 class Instruments {
   public:
     /// After each picture. `now` in seconds.
-    void note(double now, const FrameReport& report, const FocusFilter& filter, DynamicsChoice dynamics);
+    void note(double now, const FrameReport& report, const FocusFilter& filter);
 
     /// Whether stages are to be timed, which makes frames slower.
     bool timesStages() const { return timeStages_; }

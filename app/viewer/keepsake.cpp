@@ -3,18 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "core/file.hpp"
 
 namespace dioptre {
 
 namespace {
-
-std::array<double, 7> numbersOf(const Pose& pose) {
-    const auto& [p, q] = pose;
-    return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
-}
 
 // The farthest distance that a setting names; beyond it, infinity.
 constexpr double kFarthestFocus = 1e9;

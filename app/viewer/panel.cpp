@@ -149,11 +149,13 @@ PanelEdit Panel::draw(const PanelView& view) {
     ImGui::Begin("Settings", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::BeginDisabled(view.waits);
     drawHead(view, edit);
     const Line lines[] = {{kProblem, problem_}, {kWarning, view.warning}, {kUnchanged, view.status}};
     ImGui::BeginChild("groups", {0.0f, -heightOf(lines)}, false, ImGuiWindowFlags_AlwaysVerticalScrollbar);
     for (const Group& group : kGroups) drawGroup(view, group, edit);
     ImGui::EndChild();
+    ImGui::EndDisabled();
     drawLines(lines);
     ImGui::End();
     return edit;

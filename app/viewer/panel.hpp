@@ -17,6 +17,7 @@ struct PanelView {
     const Settings& settings;
     const ValueHints& hints;
     bool canUndo = false, canRedo = false;
+    bool waits = false;           // nothing can be set now
     std::string status, warning;  // below the groups; empty: nothing
     /// Below the settings of a group, its pictures; by the group's title.
     const std::function<void(std::string_view)>& pictures;

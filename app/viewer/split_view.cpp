@@ -33,12 +33,12 @@ bool SplitView::drawPanel() {
     const std::string current(other_ ? techniqueName(*other_) : "nothing");
     if (ImGui::BeginCombo("##compare", current.c_str())) {
         if (ImGui::Selectable("nothing", !other_)) {
-            other_.reset();
+            compareWith(std::nullopt);
             changed = true;
         }
         for (const TechniqueChoice technique : kTechniques) {
             if (!ImGui::Selectable(std::string(techniqueName(technique)).c_str(), other_ == technique)) continue;
-            other_ = technique;
+            compareWith(technique);
             changed = true;
         }
         ImGui::EndCombo();
@@ -54,7 +54,17 @@ bool SplitView::drawPanel() {
 void SplitView::compareWithNext() {
     const auto techniques = std::span(kTechniques);
     const auto now = other_ ? std::find(techniques.begin(), techniques.end(), *other_) + 1 : techniques.begin();
-    other_ = now == techniques.end() ? std::nullopt : std::optional(*now);
+    compareWith(now == techniques.end() ? std::nullopt : std::optional(*now));
+}
+
+void SplitView::compareWith(std::optional<TechniqueChoice> technique) {
+    other_ = technique;
+    if (other_) return;
+    // Nothing of it is kept for a next time.
+    techniques_.clear();
+    made_.reset();
+    picture_ = nullptr;
+    compositor_ = {};
 }
 
 std::string SplitView::describe() const {
@@ -80,7 +90,6 @@ void SplitView::draw(const FrameMaker& maker, const Settings& settings, double b
     }
     const RenderSettings& render = settings.render;
     plan_ = planFor(*other_, render);
-    // As many samples as last time, but for what that took more or less than the budget
     const double start = nowMilliseconds();
     std::vector<const Texture*> pictures;
     PassLog unread;
@@ -93,10 +102,7 @@ void SplitView::draw(const FrameMaker& maker, const Settings& settings, double b
         pictures.push_back(&techniques_[i]->draw(frame));
     }
     glFinish();
-    constexpr double kMostChange = 2.0;
-    const double change =
-        std::clamp(budgetMilliseconds / std::max(nowMilliseconds() - start, 1e-3), 1.0 / kMostChange, kMostChange);
-    samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, plan_.samples.value_or(1));
+    samplesNow_ = samplesInTime(samplesNow_, nowMilliseconds() - start, budgetMilliseconds, plan_.samples.value_or(1));
     const DisplayChoice display = views.size() == 1 ? DisplayChoice::mono : settings.view.display;
     picture_ = &compositor_.compose({*pictures.front(),
                                      *pictures.back(),

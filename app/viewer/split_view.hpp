@@ -44,6 +44,7 @@ class SplitView {
     void setLine(double line) { line_ = line; }
 
   private:
+    void compareWith(std::optional<TechniqueChoice> technique);
     bool measurable() const;
     static Plan planFor(TechniqueChoice technique, RenderSettings render);
 

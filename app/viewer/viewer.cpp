@@ -19,16 +19,6 @@ namespace dioptre {
 namespace {
 
 constexpr double kNoticeSeconds = 6.0;
-// Sleeping, the window wakes up so often to see whether a signal came; loading, to move the bar.
-constexpr double kNapSeconds = 0.25, kBarSeconds = 0.04;
-// Dear ImGui needs a frame to see what happened and one to answer; a third for what appears because of that.
-constexpr int kFramesAfterEvent = 3;
-// Depth under the gaze comes a frame late, the focus answers it in the next one.
-constexpr int kFramesUntilStill = 3;
-// A blink ends, and the governor finds a plan, while time goes on.
-constexpr double kSecondsUntilStill = 1.5;
-// As the focus filter has it: nearer than that to its target it has arrived.
-constexpr double kArrived = 0.01;  // dioptres
 constexpr double kSurveySeconds = 0.5;
 // A frame of a view that rests: hardly anybody sees a pause so long where they move it again.
 constexpr double kStillMilliseconds = 200.0;
@@ -83,29 +73,6 @@ bool Viewer::closing() const {
     return glfwWindowShouldClose(window_->handle()) || interrupted();
 }
 
-/// Sleeps while there is nothing to draw; false where there still is not.
-bool Viewer::waitForWork() {
-    const bool bar = loader_.running() || (show_ && show_->makesLevels());
-    const bool busy =
-        framesToDraw_ > 0 || gui_.keysWait() || wanted_ || (show_ && (!pictureIsStill() || instrumentsDue()));
-    if (busy)
-        glfwPollEvents();
-    else
-        glfwWaitEventsTimeout(bar || gazeInput_ ? kBarSeconds : kNapSeconds);
-    if (gazeInput_) gazeInput_->read(glfwGetTime());
-    if (std::exchange(woken_, false)) framesToDraw_ = kFramesAfterEvent;
-    if (!notice_.empty() && glfwGetTime() > noticeUntil_) {
-        notice_.clear();
-        framesToDraw_ = std::max(framesToDraw_, 1);
-    }
-    if (glfwGetWindowAttrib(window_->handle(), GLFW_ICONIFIED)) {
-        takeScene();
-        if (busy && !closing()) glfwWaitEventsTimeout(kNapSeconds);
-        return false;
-    }
-    return busy || bar || framesToDraw_ > 0;
-}
-
 void Viewer::frame() {
     framesToDraw_ = std::max(0, framesToDraw_ - 1);
     takeScene();
@@ -152,11 +119,15 @@ void Viewer::frame() {
 
 /// Shows a scene that was loaded; where it is refused, says why and goes on with the one that is there.
 void Viewer::takeScene() {
-    // Its way to the GPU keeps the window waiting: what it waits for is shown first.
-    if (loader_.ready() && !std::exchange(announced_, true)) return;
+    // A picture of the scene before is finished first. Its way to the GPU keeps the window waiting: what it waits for is
+    // shown first.
+    if (!wanted_ && loader_.ready() && !std::exchange(announced_, true)) return;
     try {
-        std::optional<Scene> scene = loader_.take();
-        announced_ = false;
+        std::optional<Scene> scene;
+        if (!wanted_) {
+            scene = loader_.take();
+            announced_ = false;
+        }
         if (!scene) {
             if (show_ && show_->takeLevels()) stillFrames_ = 0;
             return;
@@ -182,15 +153,14 @@ void Viewer::takeScene() {
         start_ = glfwGetTime() - settings.view.time;
         heldTime_.reset();
         stillFrames_ = 0;
-        wanted_.reset();
         error_.clear();
-        framesToDraw_ = kFramesAfterEvent;
+        woken_ = true;
     } catch (const std::exception& problem) {
         if (!show_) throw;
         logError(problem.what());
         error_ = problem.what();
         announced_ = false;
-        framesToDraw_ = kFramesAfterEvent;
+        woken_ = true;
         stillFrames_ = 0;
     }
 }
@@ -226,10 +196,6 @@ void Viewer::apply(const Wish& wish) {
     settings_ = wish.settings;
 }
 
-double Viewer::sceneTime() const {
-    return heldTime_ ? *heldTime_ : glfwGetTime() - start_;
-}
-
 FrameMaker::Input Viewer::inputNow() {
     FrameMaker::Input input;
     input.time = sceneTime();
@@ -251,44 +217,6 @@ FrameMaker::Input Viewer::inputNow() {
     return input;
 }
 
-/// Whether another picture would be the same. Where it would, but is not yet as good as it can be, the scene's time
-/// stands still while it refines.
-bool Viewer::pictureIsStill() {
-    const FocusSettings& focus = settings_.focus;
-    // A tracker's samples change with every one, if only by their noise.
-    const bool tracked = gazeInput_ && gazeInput_->gaze().alive(glfwGetTime());
-    const bool moves =
-        tracked || show_->scene().motion || !focus.gazeTrace.empty() || !focus.headTrace.empty() || recording_;
-    const FrameMaker::Input now = inputNow();
-    const bool gazeMoved =
-        now.gaze.has_value() != lastInput_.gaze.has_value() ||
-        (now.gaze && (now.gaze->position != lastInput_.gaze->position || now.gaze->valid != lastInput_.gaze->valid));
-    if (gazeMoved && focus.focus.mode == FocusMode::gaze) stillFrames_ = 0;
-    // An eye that has seen nothing for so long drifts away.
-    const double restless = focusPreset("natural").driftAfter.value;
-    const bool lost = show_->maker().focusFilter().state() == FocusState::invalid;
-    if (lost && heldTime_ && glfwGetTime() - lastPicture_ > restless) stillFrames_ = 0;
-
-    if (stillFrames_ == 0) changed_ = glfwGetTime();
-    const bool still =
-        !moves && stillFrames_ >= kFramesUntilStill && glfwGetTime() - changed_ > kSecondsUntilStill && focusRests();
-    if (!still)
-        heldTime_.reset();
-    else if (!heldTime_)
-        heldTime_ = lastInput_.time;
-    // Only a picture made while time stood still could refine.
-    const bool mayRefine = lastInput_.refineMilliseconds > 0.0;
-    return still && mayRefine && show_->maker().progress() >= 1.0 && (!split_.on() || split_.finished());
-}
-
-bool Viewer::focusRests() const {
-    if (settings_.focus.focus.mode != FocusMode::gaze) return true;
-    const FocusFilter& filter = show_->maker().focusFilter();
-    const FocusState state = filter.state();
-    if (state == FocusState::waiting || state == FocusState::saccade) return false;
-    return std::abs((filter.target() - filter.focus()).value) < kArrived;
-}
-
 void Viewer::makePicture(const FrameMaker::Input& input) {
     FrameMaker& maker = show_->maker();
     if (stillFrames_ == 0) split_.forget();
@@ -304,7 +232,7 @@ void Viewer::makePicture(const FrameMaker::Input& input) {
         split_.draw(maker, settings_, kRefineMilliseconds);
         if (heldTime_ && maker.progress() >= 1.0 && split_.progress() >= 1.0) split_.measure(maker);
     }
-    instruments_.note(lastPicture_, *report_, maker.focusFilter(), settings_.focus.dynamics);
+    instruments_.note(lastPicture_, *report_, maker.focusFilter());
     if (!command_.log.empty()) log_.push_back(*report_);
     if (recording_) recording_->add(moment());
 }
@@ -398,7 +326,7 @@ void Viewer::drawOver() {
 void Viewer::say(const std::string& text) {
     notice_ = text;
     noticeUntil_ = glfwGetTime() + kNoticeSeconds;
-    framesToDraw_ = kFramesAfterEvent;
+    woken_ = true;
 }
 
 void Viewer::showTitle() {

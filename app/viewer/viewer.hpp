@@ -90,6 +90,8 @@ class Viewer {
     std::string disparityWarning() const;
     std::string status() const;
     ValueHints hints() const;
+    bool settingsWait() const { return !show_ || wanted_; }
+    static bool isSettingsFile(const std::string& file);
     void open(const std::string& file, Wish& wish);
     void toggleFullScreen();
     void fillMonitor(const std::string& monitor);
@@ -130,7 +132,7 @@ class Viewer {
 
     // Input since the last frame
     std::vector<Action> actions_;
-    std::string dropped_;
+    std::vector<std::string> dropped_;
     bool woken_ = true;
     bool announced_ = false;  // that a scene is about to be shown
     int framesToDraw_ = 0;    // of the window, though the picture may be the same

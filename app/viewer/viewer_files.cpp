@@ -9,9 +9,13 @@
 
 namespace dioptre {
 
+bool Viewer::isSettingsFile(const std::string& file) {
+    return file.ends_with(".json");
+}
+
 /// A file of settings, or else a scene.
 void Viewer::open(const std::string& file, Wish& wish) {
-    if (!file.ends_with(".json")) {
+    if (!isSettingsFile(file)) {
         Command command = command_;
         command.settings = settings_;
         command.scene = file;

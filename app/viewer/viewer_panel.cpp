@@ -41,8 +41,8 @@ void Viewer::drawPanel(Wish& wish) {
         drawInstruments(group, wish);
     };
     stages_.hide();  // unless they are drawn
-    const PanelEdit edit = panel_.draw(
-        {wish.settings, known, history_.canUndo(), history_.canRedo(), status(), disparityWarning(), pictures});
+    const PanelEdit edit = panel_.draw({wish.settings, known, history_.canUndo(), history_.canRedo(), settingsWait(),
+                                        status(), disparityWarning(), pictures});
     if (edit.undo) act(Action::undo, wish);
     if (edit.redo) act(Action::redo, wish);
     if (!edit.load.empty()) open(edit.load, wish);

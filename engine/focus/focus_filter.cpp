@@ -86,8 +86,15 @@ FocusFilter::FocusFilter(const FocusDynamics& dynamics, Dioptres focus)
 }
 
 FocusState FocusFilter::state() const {
-    const bool arrived = std::abs((target_ - focus_).value) < kArrived;
-    return state_ == FocusState::tracking && arrived ? FocusState::deadZone : state_;
+    return state_ == FocusState::tracking && arrived() ? FocusState::deadZone : state_;
+}
+
+bool FocusFilter::rests() const {
+    return arrived() && state_ != FocusState::waiting && state_ != FocusState::saccade;
+}
+
+bool FocusFilter::arrived() const {
+    return std::abs((target_ - focus_).value) < kArrived;
 }
 
 void FocusFilter::advance(double time) {

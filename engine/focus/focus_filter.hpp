@@ -76,6 +76,9 @@ class FocusFilter {
     Dioptres focus() const { return focus_; }
     Dioptres target() const { return target_; }
     FocusState state() const;
+    /// Neither a movement nor a wait is under way.
+    bool rests() const;
+    const FocusDynamics& dynamics() const { return dynamics_; }
 
   private:
     struct Candidate {
@@ -87,6 +90,7 @@ class FocusFilter {
         glm::dvec2 degrees{0.0};
     };
 
+    bool arrived() const;
     bool setClock(double time);
     void evolve(double time);
     void setTarget(Dioptres target);

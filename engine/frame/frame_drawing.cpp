@@ -56,14 +56,9 @@ void FrameMaker::lookAhead() {
 
 void FrameMaker::drawNamed(const Input& input) {
     report_.plan = named_;
-    // As many samples as last time, but for what that took more or less than the budget
-    constexpr double kMostChange = 2.0;
     const bool refines = input.refines && named_.samples && input.budgetMilliseconds > 0.0;
-    if (refines && refining_) {
-        const double change =
-            std::clamp(input.budgetMilliseconds / report_.milliseconds, 1.0 / kMostChange, kMostChange);
-        samplesNow_ = std::clamp(static_cast<int>(samplesNow_ * change), 1, *named_.samples);
-    }
+    if (refines && refining_)
+        samplesNow_ = samplesInTime(samplesNow_, report_.milliseconds, input.budgetMilliseconds, *named_.samples);
     std::vector<EyeFrame> frames = eyeFrames(eyes_, report_.passes);
     for (EyeFrame& frame : frames) frame.samplesNow = refines ? samplesNow_ : 0;
     pictures_.draw(named_, frames);

@@ -133,6 +133,7 @@ FrameMaker::FrameMaker(const Scene& scene, const Settings& settings)
         named_ = *plan;
     else
         planner_.emplace();
+    planned_ = planner_.has_value();
     brightest_ = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
     if (brightest_ > kMostRadiance) reportCut(fmt::format("a material emits {:.3g} at this exposure", brightest_));
     if (const Camera* camera = startCamera(scene, settings.view); camera && camera->node >= 0) camera_ = *camera;
@@ -176,10 +177,8 @@ void FrameMaker::change(const Scene& scene, const Settings& settings) {
     pictures_.cut();  // nothing goes on from what other settings drew
     refining_ = false;
     named_ = plan.value_or(Plan());
-    if (plan)
-        planner_.reset();
-    else if (planner)
-        planner_ = std::move(planner);
+    planned_ = !plan;
+    if (planner) planner_ = std::move(planner);
     brightest_ = static_cast<double>(scene.brightestEmission()) * std::exp2(settings.render.exposureEv);
     settings_ = settings;
 }
@@ -290,7 +289,7 @@ const FrameReport& FrameMaker::make(const Input& input) {
     const bool again = input.alone && report_.decision;
     if (!again) report_.decision.reset();
     auto drew = FramePlanner::Drew::somethingElse;
-    if (planner_) {
+    if (planned_) {
         if (first) input.alone ? lookAhead() : prepare();
         // A picture drawn again, with levels of detail: by the plan that asked for them
         const bool unseen = unseenNow(input);
@@ -306,7 +305,7 @@ const FrameReport& FrameMaker::make(const Input& input) {
     composed_ = &compositor_.compose(composition(pictures_), report_.passes);
     glFinish();
     report_.milliseconds = nowMilliseconds() - start;
-    if (planner_) planner_->finished(report_.milliseconds, first ? FramePlanner::Drew::somethingElse : drew);
+    if (planned_) planner_->finished(report_.milliseconds, first ? FramePlanner::Drew::somethingElse : drew);
     return report_;
 }
 
@@ -347,7 +346,7 @@ void FrameMaker::present(const Placement& area) {
 }
 
 double FrameMaker::progress() const {
-    if (!planner_) return pictures_.progress();
+    if (!planned_) return pictures_.progress();
     if (!report_.decision || !report_.decision->refinement) return 1.0;
     // More than the reference's own number of samples is not waited for.
     const double enough = defaultSamples(TechniqueChoice::reference);

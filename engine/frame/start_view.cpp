@@ -65,8 +65,7 @@ View startView(const Scene& scene, const ViewSettings& settings) {
         view.pose = poseOf(camera);
     }
     if (settings.pose) {
-        const auto& p = *settings.pose;
-        view.pose = {{p[0], p[1], p[2]}, glm::normalize(glm::dquat(p[6], p[3], p[4], p[5]))};
+        view.pose = poseOf(*settings.pose);
         // The framing's near plane is that of its own place.
         if (scene.cameras.empty()) view.near = View{}.near;
     }

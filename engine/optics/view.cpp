@@ -9,6 +9,15 @@
 
 namespace dioptre {
 
+PoseNumbers numbersOf(const Pose& pose) {
+    const auto& [p, q] = pose;
+    return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+}
+
+Pose poseOf(const PoseNumbers& n) {
+    return {{n[0], n[1], n[2]}, glm::normalize(glm::dquat(n[6], n[3], n[4], n[5]))};
+}
+
 Frustum symmetricFrustum(Radians yfov, double aspect) {
     if (!(yfov.value > 0.0 && yfov.value < std::numbers::pi))
         throw InputError(fmt::format("view: vertical field of view {} rad, must be between 0 and pi", yfov.value));

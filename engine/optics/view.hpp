@@ -2,6 +2,7 @@
 // Right-handed; a camera looks along its -z, y up. Matrices are destinationFromSource on column vectors.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -16,6 +17,11 @@ struct Pose {
 
     bool operator==(const Pose&) const = default;
 };
+
+/// x, y, z of its position and x, y, z, w of its quaternion, which need not have unit length but must not be 0.
+using PoseNumbers = std::array<double, 7>;
+PoseNumbers numbersOf(const Pose& pose);
+Pose poseOf(const PoseNumbers& numbers);
 
 /// The four edges as tangents, i.e. x or y at unit distance; left < right, bottom < top, off-axis allowed.
 struct Frustum {

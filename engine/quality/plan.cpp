@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dioptre {
 
 std::vector<std::pair<std::string_view, int>> Plan::dials() const {
@@ -36,6 +38,12 @@ int defaultSamples(TechniqueChoice choice) {
     // As published: [HA90] as Lee, Eisemann, Seidel 2009 use it, [JKLL13]
     constexpr int kReference = 512, kAccumulate = 32;
     return choice == TechniqueChoice::accumulate ? kAccumulate : kReference;
+}
+
+int samplesInTime(int before, double tookMs, double budgetMs, int most) {
+    constexpr double kMostChange = 2.0, kLeastMs = 1e-3;
+    const double change = std::clamp(budgetMs / std::max(tookMs, kLeastMs), 1.0 / kMostChange, kMostChange);
+    return std::clamp(static_cast<int>(before * change), 1, most);
 }
 
 bool usesMsaa(TechniqueChoice choice) {

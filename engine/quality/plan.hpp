@@ -36,6 +36,8 @@ std::optional<TechniqueChoice> techniqueNamed(std::string_view name);
 
 /// Points of the lens that a technique averages where nobody says how many.
 int defaultSamples(TechniqueChoice choice);
+/// As many samples as last time, but for what those took more or less than the budget; 1..most.
+int samplesInTime(int before, double tookMs, double budgetMs, int most);
 /// Whether antialiasing by msaa is its own choice.
 bool usesMsaa(TechniqueChoice choice);
 /// Whether it averages pictures through points of the lens, as many as the dial `samples` says.

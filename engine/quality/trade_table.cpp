@@ -141,7 +141,7 @@ double doublings(double a, double b, double least) {
 /// it takes from the flicker of edges as much as from sharpness at first. Blur hides it, about as one divided by the
 /// mean CoC.
 double errorOfScale(int eighths, double meanCocPx) {
-    constexpr double kSharp[] = {0.323, 0.192, 0.097, 0.053, 0.022, 0.001, 0.0};  // 2/8 to 8/8
+    constexpr double kSharp[] = {0.327, 0.189, 0.096, 0.049, 0.018, 0.0, 0.0};  // 2/8 to 8/8
     constexpr double kHalvedByPx = 5.0;
     return kSharp[std::clamp(eighths, kLeastEighths, 8) - kLeastEighths] /
            (1.0 + std::max(meanCocPx, 0.0) / kHalvedByPx);

@@ -167,15 +167,16 @@ void judge(const std::string& name, double budget) {
     std::fflush(stdout);
 }
 
-/// 1 - SSIM beyond that of the whole size, against 200 points of the lens; `sharp`: the median over views after taking out
-/// that blur hides it, what quality/trade_table.cpp has.
+/// 1 - SSIM beyond that of the whole size, against 200 points of the lens; `sharp`: the mean over views after taking out that
+/// blur hides it, what quality/trade_table.cpp has.
 void sizes() {
     constexpr int kSizes[] = {7, 6, 5, 4, 3, 2};
+    constexpr double kViews = 2 * 2 * 3;
     fmt::print("mipmap, msaa 0, 640x480; by eighths of the size\n{:34} {:>8}", "", "CoC, px");
     for (const int eighths : kSizes) fmt::print("{:>7}", eighths);
     fmt::print("\n");
     for (const bool levels : {false, true}) {
-        std::map<int, std::vector<double>> sharp;
+        std::map<int, double> sharp;
         for (const char* name : {"studio", "toys"}) {
             const Stage stage(name);
             for (const double diameterMm : {3.0, 8.0}) {
@@ -202,7 +203,7 @@ void sizes() {
                         Plan smaller = plan;
                         smaller.eighths = eighths;
                         const double lost = whole - ssim(maker.pictureBy(smaller, 0), reference);
-                        sharp[eighths].push_back(lost * (1.0 + coc / 5.0));
+                        sharp[eighths] += lost * (1.0 + coc / 5.0) / kViews;
                         fmt::print("{:7.3f}", lost);
                     }
                     fmt::print("\n");
@@ -211,7 +212,7 @@ void sizes() {
             }
         }
         fmt::print("sharp, {} levels                      ", levels ? "with   " : "without");
-        for (const int eighths : kSizes) fmt::print("{:7.3f}", median(sharp[eighths]));
+        for (const int eighths : kSizes) fmt::print("{:7.3f}", sharp[eighths]);
         fmt::print("\n");
     }
 }

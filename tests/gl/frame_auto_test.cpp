@@ -175,6 +175,27 @@ TEST_F(AutoGLTest, SmallerPicturesAreEnlargedAndFadesAreMeans) {
     EXPECT_LT(worst, 2e-3);
 }
 
+TEST_F(AutoGLTest, WhatFramesTakeIsStillKnownAfterATechniqueWasNamed) {
+    const Scene scene = someScene();
+    Settings s = someSettings();
+    FrameMaker maker(scene, s);
+    FrameMaker::Input input;
+    input.budgetMilliseconds = 100.0;
+    EXPECT_EQ(maker.make(input).decision->why, "the first frame");
+    input.time += 0.1;
+    maker.make(input);
+    Settings named = s;
+    named.render.technique = TechniqueChoice::mipmap;
+    maker.change(scene, named);
+    input.time += 0.1;
+    EXPECT_FALSE(maker.make(input).decision);
+    maker.change(scene, s);
+    input.time += 0.1;
+    const FrameReport& report = maker.make(input);
+    ASSERT_TRUE(report.decision);
+    EXPECT_NE(report.decision->why, "the first frame");
+}
+
 TEST_F(AutoGLTest, AFadeThatIsBrokenOffMelts) {
     const GpuScene scene(someScene());
     Shot shot;

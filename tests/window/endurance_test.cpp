@@ -57,7 +57,6 @@ class EnduranceTest : public WindowTest {
         moving.insert(moving.rfind("]}"), R"(, {"uri": "keys.bin", "byteLength": 48})");
         write("moving.gltf", moving);
         write("broken.gltf", "{");
-        write("first.json", printSettings(viewCommand("").settings));
     }
 };
 
@@ -79,6 +78,7 @@ class Player {
         if (panel_) driver_.xdotool("key F2");
         panel_ = false;
         driver_.xdotool("windowsize $W 320 120 mousemove --window $W 80 60");
+        std::ofstream("first.json") << printSettings(viewCommand("").settings);
         driver_.drop("first.json");
         driver_.draw(3);
         driver_.drop("scene.gltf");
@@ -94,7 +94,7 @@ class Player {
     }
 
     void act() {
-        switch (whole(0, 9)) {
+        switch (whole(0, 10)) {
             case 0:
                 return driver_.drop(oneOf({"scene.gltf", "pane.gltf", "moving.gltf", "broken.gltf", "first.json"}));
             case 1:
@@ -104,8 +104,10 @@ class Player {
             case 4:
                 return driver_.xdotool(fmt::format("windowsize $W {} {}", whole(40, 500), whole(40, 400)));
             case 5:
-                return driver_.xdotool("key " + oneOf({"w", "a", "s", "d", "q", "e", "v", "x", "c", "Home", "F1", "F3",
-                                                       "r", "ctrl+z", "ctrl+y", "ctrl+z"}));
+                return driver_.xdotool(
+                    "key " +
+                    oneOf({"w", "a",    "s",  "d",  "q",   "e", "v",      "x",      "c",      "t",
+                           "g", "Home", "F1", "F3", "F12", "r", "ctrl+z", "ctrl+y", "ctrl+z", "ctrl+z ctrl+z"}));
             case 6:
                 panel_ = !panel_;
                 return driver_.xdotool("key F2");
@@ -114,8 +116,19 @@ class Player {
                     fmt::format("mousemove --window $W 60 60 mousedown {0} mousemove_relative -- {1} {2} "
                                 "mouseup {0} click {3}",
                                 whole(1, 3), whole(-30, 30), whole(-20, 20), whole(4, 5)));
+            case 8:
+                return click();
             default:
                 return driver_.xdotool(fmt::format("mousemove --window $W {} {}", whole(0, 320), whole(0, 240)));
+        }
+    }
+
+    /// Anywhere, which in the panel opens a group, chooses something, resets it or saves a preset.
+    void click() {
+        driver_.xdotool(fmt::format("mousemove --window $W {} {}", whole(0, 320), whole(0, 400)));
+        for (const char* button : {"mousedown 1", "mouseup 1"}) {
+            driver_.draw(2);
+            driver_.xdotool(button);
         }
     }
 

@@ -83,6 +83,66 @@ TEST_F(InputTest, AnEditInThePanelReachesThePictureWithinTwoFrames) {
     }
 }
 
+TEST_F(InputTest, StepsBackAreTakenOneByOneHoweverFastTheyCome) {
+    ViewerDriver driver(viewCommand("scene.gltf"));
+    const auto first = driver.shown();
+    driver.xdotool("key v");
+    driver.settle();
+    driver.xdotool("key x");
+    driver.settle();
+    const auto last = driver.shown();
+    EXPECT_NE(first, last);
+    driver.xdotool("key ctrl+z key ctrl+z");
+    driver.settle();
+    EXPECT_EQ(driver.shown(), first);
+    driver.xdotool("key ctrl+y key ctrl+y");
+    driver.settle();
+    EXPECT_EQ(driver.shown(), last);
+}
+
+TEST_F(InputTest, WhatIsAskedForWhileAPictureIsFinishedComesAfterIt) {
+    Command command = viewCommand("scene.gltf");
+    command.settings.render.technique = TechniqueChoice::reference;
+    command.settings.render.samples = 2000;
+    ViewerDriver driver(command);
+    write("brighter.json", R"({"render": {"exposure": 1}})");
+    driver.drop("brighter.json");
+    driver.xdotool("key v");
+    driver.settle();
+    const auto other = driver.shown();
+    driver.xdotool("key ctrl+z key ctrl+z");
+    driver.settle();
+    ASSERT_NE(driver.shown(), other);
+
+    const auto written = [&] { return std::filesystem::exists("dioptre-0001.png"); };
+    // Begun anew
+    driver.xdotool("key w");
+    driver.draw(3);
+    driver.xdotool("key Home");
+    driver.draw(1);
+    driver.xdotool("key F12");
+    driver.draw(2);
+    driver.xdotool("key v");
+    driver.draw(2);
+    ASSERT_FALSE(written()) << "it takes longer";
+    driver.drop("brighter.json");
+    driver.drop("scene.gltf");
+    driver.until(written, "a picture");
+    // The settings, another display, and the scene, of which the camera is the same
+    driver.until([&] { return driver.shown() == other; }, "what was asked for");
+    driver.xdotool("key ctrl+z");
+    driver.settle();
+    EXPECT_EQ(driver.shown(), other) << "nothing is taken back that was of the scene before";
+}
+
+TEST_F(InputTest, ARecordingEndsWhenAnotherSceneComes) {
+    ViewerDriver driver(viewCommand("scene.gltf"));
+    driver.xdotool("key r");
+    driver.draw(10);
+    driver.drop("scene.gltf");
+    driver.until([] { return std::filesystem::exists("dioptre-0001.head.csv"); }, "a recording");
+}
+
 TEST_F(InputTest, AStillViewStopsDrawingAndSleeps) {
     struct Case {
         const char* what;
