@@ -137,14 +137,10 @@ double doublings(double a, double b, double least) {
     return std::log2(sane(a) / sane(b));
 }
 
-/// What 1 - SSIM gains where a picture is drawn smaller and enlarged again, by `bench_governor sizes`. Enlarging filters:
-/// it takes from the flicker of edges as much as from sharpness at first. Blur hides it, about as one divided by the
-/// mean CoC.
+/// What 1 - SSIM gains where a picture is drawn smaller and enlarged again: as fitted by `bench_governor sizes`.
 double errorOfScale(int eighths, double meanCocPx) {
-    constexpr double kSharp[] = {0.327, 0.189, 0.096, 0.049, 0.018, 0.0, 0.0};  // 2/8 to 8/8
-    constexpr double kHalvedByPx = 5.0;
-    return kSharp[std::clamp(eighths, kLeastEighths, 8) - kLeastEighths] /
-           (1.0 + std::max(meanCocPx, 0.0) / kHalvedByPx);
+    constexpr double kSharp[] = {0.299, 0.198, 0.121, 0.075, 0.040, 0.001, 0.0};  // 2/8 to 8/8
+    return kSharp[std::clamp(eighths, kLeastEighths, 8) - kLeastEighths] * scaleSeen(eighths, meanCocPx);
 }
 
 /// How little two views are alike, >= 0; 0: the same. In doublings of blur and of triangles per pixel.
@@ -158,6 +154,12 @@ double distanceOf(const ViewClass& a, const ViewClass& b) {
 }
 
 }  // namespace
+
+double scaleSeen(int eighths, double meanCocPx) {
+    constexpr double kHalved = 2.5;  // of what an enlarged pixel is too wide
+    const double wider = 8.0 / std::clamp(eighths, kLeastEighths, 8) - 1.0;
+    return wider > 0.0 ? 1.0 / (1.0 + std::max(meanCocPx, 0.0) / (kHalved * wider)) : 0.0;
+}
 
 TradeTable parseTradeTable(std::string_view json, std::string_view where) {
     constexpr std::size_t kDeepest = 16;

@@ -36,6 +36,9 @@ struct TradeTable {
 TradeTable readTradeTable(const std::filesystem::path& file);
 TradeTable parseTradeTable(std::string_view json, std::string_view where);
 
+/// How much of what a smaller size loses blur leaves to be seen, 0..1; CoC DIAMETER.
+double scaleSeen(int eighths, double meanCocPx);
+
 /// Expected error, 1 - SSIM, of every plan in one view. Of the measured views the nearest counts most; with less blur than
 /// in any of them errors go on as they fall towards the least blurred, down to 0.25 px. Between measured numbers of
 /// samples N, and beyond them, by straight lines in log N and log error; a method that was measured at one N takes the

@@ -25,6 +25,7 @@
 #include "frame/measure_lens.hpp"
 #include "gl/context.hpp"
 #include "metrics/metrics.hpp"
+#include "quality/trade_table.hpp"
 #include "scene/builtin.hpp"
 #include "scene/lod.hpp"
 
@@ -167,16 +168,15 @@ void judge(const std::string& name, double budget) {
     std::fflush(stdout);
 }
 
-/// 1 - SSIM beyond that of the whole size, against 200 points of the lens; `sharp`: the mean over views after taking out that
-/// blur hides it, what quality/trade_table.cpp has.
+/// 1 - SSIM beyond that of the whole size, against 200 points of the lens; `sharp`: without blur, the best that
+/// fits all views as quality/trade_table.cpp has it.
 void sizes() {
     constexpr int kSizes[] = {7, 6, 5, 4, 3, 2};
-    constexpr double kViews = 2 * 2 * 3;
     fmt::print("mipmap, msaa 0, 640x480; by eighths of the size\n{:34} {:>8}", "", "CoC, px");
     for (const int eighths : kSizes) fmt::print("{:>7}", eighths);
     fmt::print("\n");
     for (const bool levels : {false, true}) {
-        std::map<int, double> sharp;
+        std::map<int, double> sharp, weights;
         for (const char* name : {"studio", "toys"}) {
             const Stage stage(name);
             for (const double diameterMm : {3.0, 8.0}) {
@@ -203,7 +203,9 @@ void sizes() {
                         Plan smaller = plan;
                         smaller.eighths = eighths;
                         const double lost = whole - ssim(maker.pictureBy(smaller, 0), reference);
-                        sharp[eighths] += lost * (1.0 + coc / 5.0) / kViews;
+                        const double seen = scaleSeen(eighths, coc);
+                        sharp[eighths] += lost * seen;
+                        weights[eighths] += seen * seen;
                         fmt::print("{:7.3f}", lost);
                     }
                     fmt::print("\n");
@@ -212,7 +214,7 @@ void sizes() {
             }
         }
         fmt::print("sharp, {} levels                      ", levels ? "with   " : "without");
-        for (const int eighths : kSizes) fmt::print("{:7.3f}", sharp[eighths]);
+        for (const int eighths : kSizes) fmt::print("{:7.3f}", sharp[eighths] / weights[eighths]);
         fmt::print("\n");
     }
 }
