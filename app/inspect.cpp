@@ -111,7 +111,7 @@ void runInspect(const Command& command) {
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
     // What auto plans does not hang on them.
-    if (const auto plan = planOf(command.settings.render); plan && usesLevels(plan->technique))
+    if (const auto plan = planOf(command.settings.render); plan && usesLevels(*plan))
         maker.addLevels(buildLevels(scene, {lodFolder()}));
     const std::string text = sceneText(scene) + memoryText(scene, maker.scene());
     scene.releaseBulk();

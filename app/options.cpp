@@ -429,6 +429,9 @@ Command parseCommandLine(int argc, const char* const* argv) {
     if (result.which == Command::Which::render && !result.printConfig) {
         if (result.out.empty()) throw InputError("render: --out FILE is missing");
         if (result.frames == 1) requireImageName(result.out);
+        if (result.frames > 1 && isImageName(result.out))
+            throw InputError(fmt::format("--out {}: {} frames go into a folder, this is the name of a picture",
+                                         result.out.string(), result.frames));
     }
     if (result.which == Command::Which::compare && result.compareB.empty())
         throw InputError("compare: two pictures are needed, A and B");

@@ -31,7 +31,7 @@ void runRender(const Command& command) {
     FrameMaker maker(scene, command.settings);
     const auto named = planOf(command.settings.render);
     const auto addLevels = [&] { maker.addLevels(buildLevels(scene, {lodFolder()})); };
-    if (named ? usesLevels(named->technique) : sequence) addLevels();
+    if (named ? usesLevels(*named) : sequence) addLevels();
     std::vector<FrameReport> shown;
     const auto warnIfLimited = [](const ResolvedLens& lens) {
         if (lens.focusLimited)
@@ -45,7 +45,7 @@ void runRender(const Command& command) {
         input.alone = true;
         shown.push_back(maker.make(input));
         // Levels of detail take long to build: only for a plan that draws them
-        if (!named && usesLevels(shown.back().plan.technique)) {
+        if (!named && usesLevels(shown.back().plan)) {
             addLevels();
             shown.back() = maker.make(input);
         }

@@ -22,7 +22,7 @@ constexpr double kLongestStep = 0.1;      // s: after a nap nobody has flown on
 
 /// At any time; the others wait for a scene, or until a picture to be written is finished.
 bool goesWithoutSettings(Action action) {
-    constexpr Action kAnyTime[] = {Action::help, Action::panel, Action::search, Action::fullScreen, Action::close};
+    constexpr Action kAnyTime[] = {Action::help, Action::panel, Action::fullScreen, Action::close};
     return std::find(std::begin(kAnyTime), std::end(kAnyTime), action) != std::end(kAnyTime);
 }
 
@@ -94,9 +94,9 @@ void Viewer::takeWishes(Wish& wish) {
     for (const Action action : std::exchange(actions_, {})) {
         const bool steps = action == Action::undo || action == Action::redo;
         const bool cancels = wanted_ && action == Action::picture;
-        const bool waits =
-            stepped || (steps && wish.edit) || (settingsWait() && !goesWithoutSettings(action) && !cancels);
-        stepped = stepped || steps;
+        const bool early = settingsWait() && !goesWithoutSettings(action) && !cancels;
+        const bool waits = early || stepped || (steps && wish.edit);
+        stepped = stepped || (steps && !early);
         if (waits)
             actions_.push_back(action);
         else
@@ -104,7 +104,7 @@ void Viewer::takeWishes(Wish& wish) {
     }
     if (stepped) framesToDraw_ = std::max(framesToDraw_, 1);
     for (std::string& file : std::exchange(dropped_, {})) {
-        if (settingsWait() && isSettingsFile(file))
+        if ((settingsWait() || stepped) && isSettingsFile(file))
             dropped_.push_back(std::move(file));
         else
             open(file, wish);

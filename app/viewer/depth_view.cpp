@@ -38,7 +38,8 @@ void DepthView::survey(const GpuScene& scene, const View& head) {
     target_.bind();
     const float infinitelyFar = 0.0f;
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &infinitelyFar);
-    scene.drawDepth(small, 1.0);
+    constexpr double kDetailPx = 1.0;
+    scene.drawDepth(small, kDetailPx);
 
     // Stored depth is near × vergence.
     std::vector<float> depths = readTexture(depth_, GL_DEPTH_COMPONENT, 1);

@@ -1,6 +1,7 @@
 #include "viewer/scene_loader.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "gl/pass.hpp"
 
@@ -43,14 +44,16 @@ double SceneLoader::seconds() const {
     return (nowMilliseconds() - began_) * 1e-3;
 }
 
-std::optional<Scene> SceneLoader::take() {
-    if (!running() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
-    if (!next_) return loading_.get();
-    // Nobody wants this one any more, nor its errors.
+void SceneLoader::goOn() {
+    if (!next_ || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    // Nobody wants that one any more, nor its errors.
     loading_ = {};
-    start(*next_);
-    next_.reset();
-    return std::nullopt;
+    start(*std::exchange(next_, std::nullopt));
+}
+
+std::optional<Scene> SceneLoader::take() {
+    if (!ready()) return std::nullopt;
+    return loading_.get();
 }
 
 }  // namespace dioptre

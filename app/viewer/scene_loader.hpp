@@ -19,8 +19,9 @@ class SceneLoader {
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
 
-    /// Begins with `command`'s scene, once one that is being loaded was given up.
+    /// Begins with `command`'s scene, once one that is being loaded was given up, which goOn() sees.
     void load(const Command& command);
+    void goOn();
 
     bool running() const { return loading_.valid(); }
     /// It is there, or what went wrong with it.

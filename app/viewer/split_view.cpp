@@ -60,7 +60,8 @@ void SplitView::compareWithNext() {
 void SplitView::compareWith(std::optional<TechniqueChoice> technique) {
     other_ = technique;
     if (other_) return;
-    // Nothing of it is kept for a next time.
+    difference_ = false;
+    // Its textures are not kept for a next time.
     techniques_.clear();
     made_.reset();
     picture_ = nullptr;

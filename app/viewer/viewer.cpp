@@ -119,6 +119,7 @@ void Viewer::frame() {
 
 /// Shows a scene that was loaded; where it is refused, says why and goes on with the one that is there.
 void Viewer::takeScene() {
+    loader_.goOn();
     // A picture of the scene before is finished first. Its way to the GPU keeps the window waiting: what it waits for is
     // shown first.
     if (!wanted_ && loader_.ready() && !std::exchange(announced_, true)) return;
@@ -309,10 +310,11 @@ void Viewer::drawOver() {
     int place = 0;
     if (split_.on() && report_ && !wanted_) drawComparison();
     if (loader_.running())
-        drawProgress(announced_ ? Progress{"preparing " + loader_.name(), 1.0}
-                                : Progress{fmt::format("loading {}, {:.0f} s", loader_.name(), loader_.seconds()),
-                                           loader_.progress()},
-                     place++);
+        drawProgress(
+            announced_ && !wanted_
+                ? Progress{"preparing " + loader_.name(), 1.0}
+                : Progress{fmt::format("loading {}, {:.0f} s", loader_.name(), loader_.seconds()), loader_.progress()},
+            place++);
     if (wanted_)
         drawProgress({"finishing the picture to be written", show_->maker().progress()}, place++);
     else if (show_ && show_->makesLevels())

@@ -1,5 +1,6 @@
 // What the viewer reads and writes: dropped files, pictures, recordings.
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <utility>
 
@@ -49,6 +50,7 @@ void Viewer::beginPicture() {
     WantedPicture picture{nextName("."), settingsOf(moment(), settings_)};
     show_->change(picture.settings);
     wanted_ = std::move(picture);
+    ImGui::SetWindowFocus(nullptr);  // what is being typed would not be taken
 }
 
 void Viewer::drawPictureToBeWritten() {

@@ -31,12 +31,19 @@ struct Format {
 constexpr Format kFormats[] = {
     {".png", encodePng, decodePng}, {".exr", encodeExr, decodeExr}, {".pfm", encodePfm, decodePfm}};
 
-const Format& formatOf(const std::filesystem::path& path) {
+/// By its extension; null: none that is known.
+const Format* findFormat(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const Format& format : kFormats)
-        if (format.extension == extension) return format;
-    throw InputError(path.string() + ": unknown picture format " + quote(extension) + ", known are .png, .exr, .pfm");
+    const auto* found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                     [&](const Format& format) { return format.extension == extension; });
+    return found == std::end(kFormats) ? nullptr : found;
+}
+
+const Format& formatOf(const std::filesystem::path& path) {
+    if (const Format* format = findFormat(path)) return *format;
+    throw InputError(path.string() + ": unknown picture format " + quote(path.extension().string()) +
+                     ", known are .png, .exr, .pfm");
 }
 
 float swapBytes(float x) {
@@ -103,6 +110,10 @@ Image decodePfm(std::string_view bytes) {
     if (*scale > 0.0)  // big-endian
         for (float& x : image.pixels) x = swapBytes(x);
     return image;
+}
+
+bool isImageName(const std::filesystem::path& path) {
+    return findFormat(path) != nullptr;
 }
 
 void requireImageName(const std::filesystem::path& path) {

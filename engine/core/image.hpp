@@ -48,6 +48,8 @@ Image readImage(const std::filesystem::path& path);
 /// A JPEG file's bytes for a page to look at: sRGB, lossy; quality 1..100. RunError where it cannot be encoded.
 std::string encodeJpeg(const Image& image, int quality);
 
+/// Whether it ends as one of the formats does.
+bool isImageName(const std::filesystem::path& path);
 /// InputError where writeImage could not work: unknown extension, folder missing. Asked before a long run.
 void requireImageName(const std::filesystem::path& path);
 

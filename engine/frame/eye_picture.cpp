@@ -5,16 +5,6 @@
 
 namespace dioptre {
 
-namespace {
-
-// Pixels of a picture of that size. Below half of it a picture is one that has to be cheap, and most of its triangles are
-// smaller than its pixels; at larger ones levels lose more than they save (`bench_governor sizes`).
-double detailPx(int eighths) {
-    return std::max(0, 4 - eighths);
-}
-
-}  // namespace
-
 const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
     std::unique_ptr<Technique>& technique = techniques_[static_cast<std::size_t>(plan.technique)];
     if (!technique) technique = makeTechnique(plan.technique);
@@ -25,7 +15,6 @@ const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
     view.height = sized(view.height);
     EyeFrame sizedFrame{frame.scene, view, frame.lens, frame.exposure, 0, frame.show, frame.log};
     apply(plan, sizedFrame);
-    sizedFrame.detailPx = detailPx(plan.eighths);
     sizedFrame.firstSample = frame.firstSample;
     sizedFrame.samplesNow = frame.samplesNow;
     return technique->draw(sizedFrame);

@@ -86,7 +86,7 @@ class FrameMaker {
     }
 
     /// Whether levels of detail may be drawn.
-    bool mayUseLevels() const { return planned_ || usesLevels(named_.technique); }
+    bool mayUseLevels() const { return planned_ || usesLevels(named_); }
     /// What a technique that draws levels of detail is to draw from the next frame on.
     void addLevels(const std::vector<BuiltLevel>& levels);
 
@@ -154,9 +154,9 @@ class FrameMaker {
     bool fresh_ = true;       // nothing was drawn yet by these eyes and this way to draw
     std::vector<View> eyes_;  // one, or left and right
     PlannedPictures pictures_;
-    Plan named_;                           // by the settings, where there is no planner
+    Plan named_;                           // by the settings, where planned_ is false
     std::optional<FramePlanner> planner_;  // what it learnt outlives frames that settings plan
-    bool planned_ = false;                 // by it
+    bool planned_ = false;                 // by the governor
     double brightest_ = 0.0;               // radiance that a material emits, times exposure
     std::optional<double> lostAt_;         // since when the gaze is not valid
     int samplesNow_ = 1;                   // of a named technique that refines, in a frame

@@ -4,7 +4,8 @@
 // Surfaces that are seen through, texel by texel, each by itself: below the cut-off of an alpha mask nothing is there;
 // alpha-blended ones are there from alpha 0.5 on, where they give more of the pixel's light than all that is behind them,
 // and looked through below that. So a pane of dim glass is focused on, a clean one is not, nor are two clean ones. What
-// fills the cone then: focus/gaze_depth.hpp.
+// fills the cone then: focus/gaze_depth.hpp. Levels of detail that are there are drawn where they are off by no more than
+// a pixel.
 #pragma once
 
 #include <optional>
@@ -32,7 +33,7 @@ class GazeProbe {
     std::optional<Reading> finish(bool wait);
     bool running() const { return started_; }
 
-    /// Both in one: exact, and waits.
+    /// Both in one, and waits.
     std::optional<Dioptres> vergence(const GpuScene& scene, std::span<const View> eyes, const View& centre,
                                      glm::dvec2 gaze, Radians error, PassLog& log);
 

@@ -81,7 +81,7 @@ PlannedPictures::Drawn PlannedPictures::draw(const Decision& decision, std::span
     for (const Eye& eye : eyes_) old.push_back(eye.shown);
     const auto begin = [&](const Plan& plan) {
         if (!melts || decision.fade || !before_) return;
-        // A fade may be broken off where it takes too long.
+        // A fade may be broken off where it takes too long. A whole one's last weight is a step below 1, but for rounding.
         const bool broken = before_->fade && *before_->fade + step / Decision::Fade::kSeconds < 0.99;
         if (methodOf(plan) == methodOf(before_->plan) && !broken) return;
         for (std::size_t i = 0; !melting_ && i < eyes_.size(); ++i) eyes_[i].picture.remember(*old[i], frames[i]);

@@ -54,8 +54,12 @@ bool usesSamples(TechniqueChoice choice) {
     return choice == TechniqueChoice::accumulate || choice == TechniqueChoice::reference;
 }
 
-bool usesLevels(TechniqueChoice choice) {
-    return choice == TechniqueChoice::accumulate;
+double detailPx(const Plan& plan) {
+    return std::max(0, 4 - plan.eighths);
+}
+
+bool usesLevels(const Plan& plan) {
+    return plan.technique == TechniqueChoice::accumulate || detailPx(plan) > 0.0;
 }
 
 bool maySize(const Plan& plan) {

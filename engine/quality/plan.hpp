@@ -42,8 +42,12 @@ int samplesInTime(int before, double tookMs, double budgetMs, int most);
 bool usesMsaa(TechniqueChoice choice);
 /// Whether it averages pictures through points of the lens, as many as the dial `samples` says.
 bool usesSamples(TechniqueChoice choice);
+/// What levels of detail may be off where no blur hides it, pixels of the picture as it is drawn; 0: level 0. Below half
+/// the size a picture is one that has to be cheap, and most of its triangles are smaller than its pixels; at larger ones
+/// levels lose more than they save (`bench_governor sizes`).
+double detailPx(const Plan& plan);
 /// Whether it draws levels of detail.
-bool usesLevels(TechniqueChoice choice);
+bool usesLevels(const Plan& plan);
 
 inline constexpr int kLeastEighths = 2;
 /// Fewer pixels in steps of a half or so: each change of size is seen.

@@ -25,6 +25,7 @@ void apply(const Plan& plan, EyeFrame& frame) {
     if (plan.msaa) frame.msaa = *plan.msaa;
     if (plan.samples) frame.samples = *plan.samples;
     if (plan.subsamples) frame.subsamples = *plan.subsamples;
+    frame.detailPx = detailPx(plan);
 }
 
 std::vector<Plan> measuredPlans() {

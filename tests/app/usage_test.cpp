@@ -73,6 +73,9 @@ TEST_F(UsageTest, ValuesOutOfRangeNameOptionValueAndLimit) {
         }
         EXPECT_FALSE(there("x.png")) << wrong[0];
     }
+    expectRefused(run({"render", "scene.gltf", "--frames", "3", "--out", "x.png"}),
+                  {"--out x.png", "3 frames", "folder"});
+    EXPECT_FALSE(there("x.png"));
     // Within the sides' limit, but 4 GB of samples
     expectRefused(run({"render", "scene.gltf", "--out", "x.png", "--eye", "centre", "--size", "16384x8192"}),
                   {"--size", "16384x8192", "--msaa 4"});

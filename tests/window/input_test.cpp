@@ -135,6 +135,30 @@ TEST_F(InputTest, WhatIsAskedForWhileAPictureIsFinishedComesAfterIt) {
     EXPECT_EQ(driver.shown(), other) << "nothing is taken back that was of the scene before";
 }
 
+TEST_F(InputTest, WhatWaitsForAPictureKeepsNobodyFromGivingItUp) {
+    Command command = viewCommand("scene.gltf");
+    command.settings.render.technique = TechniqueChoice::reference;
+    command.settings.render.samples = 2000;
+    ViewerDriver driver(command);
+    const auto first = driver.shown();
+    driver.xdotool("key v");
+    driver.settle();
+    ASSERT_NE(driver.shown(), first);
+    driver.xdotool("key w");
+    driver.draw(3);
+    driver.xdotool("key Home");
+    driver.draw(1);
+    driver.xdotool("key F12");
+    driver.draw(2);
+    driver.xdotool("key ctrl+z");
+    driver.draw(2);
+    driver.xdotool("key F12");
+    driver.draw(1);
+    driver.settle();
+    EXPECT_FALSE(std::filesystem::exists("dioptre-0001.png"));
+    EXPECT_EQ(driver.shown(), first) << "then it is taken back";
+}
+
 TEST_F(InputTest, ARecordingEndsWhenAnotherSceneComes) {
     ViewerDriver driver(viewCommand("scene.gltf"));
     driver.xdotool("key r");
