@@ -57,7 +57,6 @@ Decision FramePlanner::decide(const Moment& moment) {
         all.nearest = std::max(all.nearest, seen.nearest);
         all.anything = all.anything || seen.anything;
         all.blended = all.blended || seen.blended;
-        all.triangles = std::max(all.triangles, seen.triangles);
     }
     const ViewFacts facts = factsOf(moment, all);
     requirements_ = require(facts);
@@ -68,8 +67,16 @@ Decision FramePlanner::decide(const Moment& moment) {
     s.refineMs = moment.refineMs;
     s.lastMs = std::exchange(lastMs_, std::nullopt);
     s.lastRefined = lastRefined_;
-    s.view = classOf(facts, static_cast<double>(all.triangles), static_cast<double>(view.width) * view.height,
+    // Of the whole view's pixels, which a smaller picture has fewer of
+    std::vector<double> detail{0.0};
+    for (std::size_t i = 0; i < s.view.leveled.size(); ++i) {
+        const int eighths = kLeastEighths + static_cast<int>(i);
+        detail.push_back(detailPx({TechniqueChoice::pinhole, 0, {}, {}, eighths}) * 8.0 / eighths);
+    }
+    const std::vector<std::uint64_t> triangles = moment.scene.triangles(view, detail);
+    s.view = classOf(facts, static_cast<double>(triangles.front()), static_cast<double>(view.width) * view.height,
                      static_cast<int>(moment.eyes.size()));
+    for (std::size_t i = 0; i < s.view.leveled.size(); ++i) s.view.leveled[i] = static_cast<double>(triangles[i + 1]);
     s.requirements = requirements_;
     s.unseen = moment.unseen;
     s.alone = moment.alone;

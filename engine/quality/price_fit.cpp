@@ -90,7 +90,9 @@ Work workOf(const Plan& plan, const ViewClass& view) {
     const double scale = plan.eighths / 8.0;
     const double pixels = std::max(view.pixels, 1.0) * scale * scale;
     const double samples = plan.samples.value_or(1);
-    return {eyes * std::max(view.triangles, 0.0) * samples,
+    std::optional<double> leveled;
+    if (detailPx(plan) > 0.0) leveled = view.leveled.at(static_cast<std::size_t>(plan.eighths - kLeastEighths));
+    return {eyes * std::max(leveled.value_or(view.triangles), 0.0) * samples,
             eyes * pixels * samples * std::max(plan.msaa.value_or(0), 1), eyes * pixels * fetchesOf(plan),
             eyes * passesOf(plan)};
 }

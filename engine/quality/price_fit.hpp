@@ -11,7 +11,7 @@ namespace dioptre {
 
 inline constexpr std::size_t kStages = 4;
 
-/// How much of each stage a frame has, all eyes together: triangles × samples of the lens; pixels × samples of lens and
+/// How much of each stage a frame has, all eyes together: triangles (of the levels of detail that it draws) × samples of the lens; pixels × samples of lens and
 /// msaa; fetches of full-screen passes; passes. Affine in the number of samples.
 using Work = std::array<double, kStages>;
 Work workOf(const Plan& plan, const ViewClass& view);

@@ -36,6 +36,7 @@ double levelOfError(std::span<const float> errors, double allowed) {
 }
 
 double levelWithin(const View& view, const DrawList::Seen& seen, double pixels) {
+    if (!(pixels > 0.0)) return 0.0;
     const double pixelsPerMetre =
         seen.scale * focalLengthPixels(view).x / std::max(view.near.value, seen.box.nearest());
     return levelOfError(seen.errors, pixels / pixelsPerMetre);

@@ -89,7 +89,8 @@ class DrawList {
 /// The coarsest level with at most that error, and as much of the next as lies between their errors; these increase.
 double levelOfError(std::span<const float> errors, double allowed);
 
-/// The same of an item by what its error takes of the view where the item is nearest, pixels.
+/// The same of an item by what its error takes of the view where the item is nearest, pixels. 0 for 0: triangles of
+/// levels without error, too, are rounded otherwise.
 double levelWithin(const View& view, const DrawList::Seen& seen, double pixels);
 
 }  // namespace dioptre

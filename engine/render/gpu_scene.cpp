@@ -246,10 +246,21 @@ ViewContents GpuScene::contents(const View& view) const {
         seen.farthest = seen.anything ? std::min(seen.farthest, 1.0 / far) : 1.0 / far;
         seen.anything = true;
         seen.blended = seen.blended || item.state.blended;
-        if (item.state.topology == Topology::triangles)
-            seen.triangles += levels_[item.primitive].indices.front().count / 3;
     }
     return seen;
+}
+
+std::vector<std::uint64_t> GpuScene::triangles(const View& view, std::span<const double> detailPx) const {
+    const glm::dmat4 viewFrom = viewFromWorld(view.pose);
+    std::vector<std::uint64_t> sums(detailPx.size(), 0);
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        const auto seen = seenItem(i, viewFrom * items_[i].worldFromMesh, view, nullptr);
+        if (!seen || seen->triangles == 0) continue;
+        const std::vector<IndexRange>& levels = levels_[items_[i].primitive].indices;
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            sums[k] += levels[static_cast<std::size_t>(levelWithin(view, *seen, detailPx[k]))].count / 3;
+    }
+    return sums;
 }
 
 int GpuScene::mostMatrices() {
@@ -259,10 +270,9 @@ int GpuScene::mostMatrices() {
 void GpuScene::seeWhole(const View& view, double detailPx) const {
     see(whole_, view, nullptr);
     std::vector<std::int8_t> levels;
-    // Without error there are levels, too, whose triangles are rounded otherwise.
-    if (detailPx > 0.0)
-        for (const DrawList::Seen& seen : whole_.seen())
-            levels.push_back(static_cast<std::int8_t>(levelWithin(view, seen, detailPx)));
+    levels.reserve(whole_.seen().size());
+    for (const DrawList::Seen& seen : whole_.seen())
+        levels.push_back(static_cast<std::int8_t>(levelWithin(view, seen, detailPx)));
     arrange(whole_, 1, levels);
 }
 
@@ -293,6 +303,21 @@ void GpuScene::drawThroughLens(const DrawList& list, std::span<const glm::mat4> 
     drawBlended(list, through);
 }
 
+std::optional<DrawList::Seen> GpuScene::seenItem(std::size_t index, const glm::dmat4& viewFromMesh, const View& view,
+                                                 const Lens* lens) const {
+    const Item& item = items_[index];
+    const ViewBox box = boxInView(viewFromMesh, item.bounds);
+    if (!mayBeSeen(view, lens, box)) return std::nullopt;
+    const Levels& levels = levels_[item.primitive];
+    const bool triangles = item.state.topology == Topology::triangles;
+    return DrawList::Seen{static_cast<std::uint32_t>(index),
+                          box,
+                          item.state.blended,
+                          triangles ? levels.indices.front().count / 3 : 0,
+                          std::span(levels.errors).first(item.bent < 0 ? levels.errors.size() : 1),
+                          mostStretch(glm::dmat3(viewFromMesh))};
+}
+
 void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
     // The matrices are made eye-relative in double precision.
@@ -302,17 +327,11 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     list.runs_.clear();
     list.blendedRuns_.clear();
     for (std::size_t i = 0; i < items_.size(); ++i) {
-        const Item& item = items_[i];
-        const glm::dmat4 viewFromMesh = viewFrom * item.worldFromMesh;
-        const ViewBox box = boxInView(viewFromMesh, item.bounds);
-        if (!mayBeSeen(view, lens, box)) continue;
+        const glm::dmat4 viewFromMesh = viewFrom * items_[i].worldFromMesh;
+        const auto seen = seenItem(i, viewFromMesh, view, lens);
+        if (!seen) continue;
         instances[i] = glm::mat4(viewFromMesh);
-        const Levels& levels = levels_[item.primitive];
-        const double scale = mostStretch(glm::dmat3(viewFromMesh));
-        const bool triangles = item.state.topology == Topology::triangles;
-        list.seen_.push_back({static_cast<std::uint32_t>(i), box, item.state.blended,
-                              triangles ? levels.indices.front().count / 3 : 0,
-                              std::span(levels.errors).first(item.bent < 0 ? levels.errors.size() : 1), scale});
+        list.seen_.push_back(*seen);
     }
     sortFrontToBack(list);
     for (std::size_t i = 0; i < list.seen_.size(); ++i)

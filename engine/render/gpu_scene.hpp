@@ -34,8 +34,7 @@ namespace dioptre {
 struct ViewContents {
     double nearest = 0.0, farthest = 0.0;  // vergences, D
     bool anything = false;
-    bool blended = false;         // some of it is seen through
-    std::uint64_t triangles = 0;  // at full detail
+    bool blended = false;  // some of it is seen through
 };
 
 /// How finely textures are read.
@@ -86,6 +85,8 @@ class GpuScene {
 
     /// Conservative: from the pose's bounding boxes, nearest bounded by the view's near plane.
     ViewContents contents(const View& view) const;
+    /// Of what `view` may see, for each of these allowances as drawRadiance has them.
+    std::vector<std::uint64_t> triangles(const View& view, std::span<const double> detailPx) const;
 
     std::size_t bytes() const;
     /// Triangles sent to the GL so far, counted once for each matrix.
@@ -138,6 +139,8 @@ class GpuScene {
     void drawBlended(const DrawList& list, const Through& through) const;
     void drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const;
     void bind(const Run& run) const;
+    std::optional<DrawList::Seen> seenItem(std::size_t index, const glm::dmat4& viewFromMesh, const View& view,
+                                           const Lens* lens) const;
     void seeWhole(const View& view, double detailPx) const;
 
     std::vector<Item> items_;  // sorted by state

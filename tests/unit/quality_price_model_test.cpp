@@ -80,6 +80,13 @@ TEST(PriceModelTest, WorkIsThatOfBothEyesAndOfTheSize) {
     const Work whole = workOf(kMipmap, kView), quarter = workOf(half, kView);
     EXPECT_DOUBLE_EQ(quarter[1], 0.25 * whole[1]);
     EXPECT_DOUBLE_EQ(quarter[0], whole[0]);
+    ViewClass leveled = kView;
+    leveled.leveled = {0.1 * kView.triangles, 0.3 * kView.triangles};
+    for (const auto& [eighths, share] : {std::pair(2, 0.1), {3, 0.3}, {4, 1.0}, {8, 1.0}}) {
+        half.eighths = eighths;
+        EXPECT_DOUBLE_EQ(workOf(half, leveled)[0], share * whole[0]) << eighths;
+        EXPECT_DOUBLE_EQ(workOf(half, kView)[0], whole[0]) << eighths;
+    }
     EXPECT_GT(workOf(kMipmap4, kView)[1], workOf(kMipmap, kView)[1]);
     // Affine in the samples
     for (std::size_t k = 0; k < kStages; ++k)
