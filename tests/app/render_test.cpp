@@ -230,12 +230,11 @@ TEST_F(RenderTest, AFileThatCannotBeWrittenIsNotThere) {
 }
 
 TEST_F(RenderTest, FoldersAndFilesThatCannotBeMadeAreAlike) {
-    for (const char* sequence : {"1", "2"}) {
-        const Outcome outcome =
-            run({"render", "scene.gltf", "--size", "8x6", "--frames", sequence, "--out", "/proc/x.png"});
+    for (const auto& [frames, out] : {std::pair("1", "/proc/x.png"), {"2", "/proc/x"}}) {
+        const Outcome outcome = run({"render", "scene.gltf", "--size", "8x6", "--frames", frames, "--out", out});
         EXPECT_EQ(outcome.status, 1);
         EXPECT_EQ(linesOf(outcome.err).size(), 1u) << outcome.err;
-        EXPECT_THAT(outcome.err, HasSubstr("/proc/x.png"));
+        EXPECT_THAT(outcome.err, HasSubstr(out));
     }
 }
 
