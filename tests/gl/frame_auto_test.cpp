@@ -259,8 +259,10 @@ TEST_F(AutoGLTest, PicturesBelowHalfTheSizeAreDrawnWithLevelsOfDetail) {
         return scene.trianglesDrawn() - before;
     };
     for (const TechniqueChoice choice : {TechniqueChoice::pinhole, TechniqueChoice::mipmap})
-        for (const auto& [eighths, triangles] : {std::pair(2, 1u), {3, 2u}, {4, 2u}, {8, 2u}})
-            EXPECT_EQ(drawn([&] { eye.draw({choice, 0, {}, {}, eighths}, frame); }), triangles) << eighths;
+        for (const auto& [eighths, triangles] : {std::pair(2, 1u), {3, 2u}, {4, 2u}, {8, 2u}}) {
+            const Plan plan{choice, 0, {}, {}, eighths};
+            EXPECT_EQ(drawn([&] { eye.draw(plan, frame); }), triangles) << eighths;
+        }
     const double allowed[] = {0.0, 5.9, 6.1};
     EXPECT_EQ(scene.triangles(shot.view, allowed), (std::vector<std::uint64_t>{2, 2, 1}));
     EXPECT_EQ(drawn([&] { scene.drawDepth(shot.view, 5.9); }), 2u);
