@@ -28,6 +28,22 @@ class InputTest : public WindowTest {
         return 100;
     }
 
+    static Command slowCommand() {
+        Command command = viewCommand("scene.gltf");
+        command.settings.render.technique = TechniqueChoice::reference;
+        command.settings.render.samples = 2000;
+        return command;
+    }
+    /// Of the camera's view, begun anew: it takes many frames.
+    static void beginLongPicture(ViewerDriver& driver) {
+        driver.xdotool("key w");
+        driver.draw(3);
+        driver.xdotool("key Home");
+        driver.draw(1);
+        driver.xdotool("key F12");
+        driver.draw(2);
+    }
+
   private:
     bool asleep_ = false;
 };
@@ -101,10 +117,7 @@ TEST_F(InputTest, StepsBackAreTakenOneByOneHoweverFastTheyCome) {
 }
 
 TEST_F(InputTest, WhatIsAskedForWhileAPictureIsFinishedComesAfterIt) {
-    Command command = viewCommand("scene.gltf");
-    command.settings.render.technique = TechniqueChoice::reference;
-    command.settings.render.samples = 2000;
-    ViewerDriver driver(command);
+    ViewerDriver driver(slowCommand());
     write("brighter.json", R"({"render": {"exposure": 1}})");
     driver.drop("brighter.json");
     driver.xdotool("key v");
@@ -115,13 +128,7 @@ TEST_F(InputTest, WhatIsAskedForWhileAPictureIsFinishedComesAfterIt) {
     ASSERT_NE(driver.shown(), other);
 
     const auto written = [&] { return std::filesystem::exists("dioptre-0001.png"); };
-    // Begun anew
-    driver.xdotool("key w");
-    driver.draw(3);
-    driver.xdotool("key Home");
-    driver.draw(1);
-    driver.xdotool("key F12");
-    driver.draw(2);
+    beginLongPicture(driver);
     driver.xdotool("key v");
     driver.draw(2);
     ASSERT_FALSE(written()) << "it takes longer";
@@ -136,20 +143,12 @@ TEST_F(InputTest, WhatIsAskedForWhileAPictureIsFinishedComesAfterIt) {
 }
 
 TEST_F(InputTest, WhatWaitsForAPictureKeepsNobodyFromGivingItUp) {
-    Command command = viewCommand("scene.gltf");
-    command.settings.render.technique = TechniqueChoice::reference;
-    command.settings.render.samples = 2000;
-    ViewerDriver driver(command);
+    ViewerDriver driver(slowCommand());
     const auto first = driver.shown();
     driver.xdotool("key v");
     driver.settle();
     ASSERT_NE(driver.shown(), first);
-    driver.xdotool("key w");
-    driver.draw(3);
-    driver.xdotool("key Home");
-    driver.draw(1);
-    driver.xdotool("key F12");
-    driver.draw(2);
+    beginLongPicture(driver);
     driver.xdotool("key ctrl+z");
     driver.draw(2);
     driver.xdotool("key F12");
