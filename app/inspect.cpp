@@ -110,7 +110,7 @@ void runInspect(const Command& command) {
     if (command.lods) return inspectLods(scene);
     const auto context = openHeadlessContext(command);
     FrameMaker maker(scene, command.settings);
-    // What auto plans does not hang on them.
+    // One picture is planned without them.
     if (const auto plan = planOf(command.settings.render); plan && usesLevels(*plan))
         maker.addLevels(buildLevels(scene, {lodFolder()}));
     const std::string text = sceneText(scene) + memoryText(scene, maker.scene());

@@ -44,7 +44,7 @@ bool usesMsaa(TechniqueChoice choice);
 bool usesSamples(TechniqueChoice choice);
 /// What levels of detail may be off where no blur hides it, pixels of the picture as it is drawn; 0: level 0. Below half
 /// the size a picture is one that has to be cheap, and most of its triangles are smaller than its pixels; at larger ones
-/// levels lose more than they save (`bench_governor sizes`).
+/// levels lose more than they save (docs/measured.md).
 double detailPx(const Plan& plan);
 /// Whether it draws levels of detail.
 bool usesLevels(const Plan& plan);

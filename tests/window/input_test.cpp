@@ -135,6 +135,7 @@ TEST_F(InputTest, WhatIsAskedForWhileAPictureIsFinishedComesAfterIt) {
     driver.drop("brighter.json");
     driver.drop("scene.gltf");
     driver.until(written, "a picture");
+    EXPECT_EQ(read("dioptre-0001.json").find("\"exposure\": 1"), std::string::npos) << "it is of the moment before";
     // The settings, another display, and the scene, of which the camera is the same
     driver.until([&] { return driver.shown() == other; }, "what was asked for");
     driver.xdotool("key ctrl+z");
