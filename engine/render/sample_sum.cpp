@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace dioptre {
 
@@ -32,15 +34,35 @@ void SampleLayers::clear(int first, int count) const {
                        &infinitelyFar);
 }
 
+void SampleSum::allocate(int width, int height) {
+    std::vector<Framebuffer::Attachment> targets;
+    const int coarsest = 1 << (levels_ - 1);
+    const auto padded = [&](int size) { return (size + coarsest - 1) / coarsest * coarsest; };
+    for (Texture& part : parts_) {
+        const int levels = targets.empty() ? 1 : levels_;
+        part = Texture({GL_RGBA32F, padded(width), padded(height), levels}, "sum of samples");
+        part.setLinear(levels > 1);
+        targets.push_back({&part});
+    }
+    sumTarget_ = Framebuffer(targets, nullptr, "sum of samples");
+}
+
+void SampleSum::clear() {
+    drawn_ = 0;
+    weight_ = 0.0;
+    const float zero[] = {0.0f, 0.0f, 0.0f, 0.0f};
+    for (GLint i = 0; i < static_cast<GLint>(parts_.size()); ++i)
+        glClearNamedFramebufferfv(sumTarget_.name(), GL_COLOR, i, zero);
+}
+
 void SampleSum::begin(const EyeFrame& frame) {
     const auto& [width, height] = std::pair(frame.view.width, frame.view.height);
-    const bool resized = !sum_ || sum_.width() != width || sum_.height() != height;
+    const bool resized = !output_ || output_.width() != width || output_.height() != height;
     if (resized) {
-        sum_ = Texture({GL_RGBA32F, width, height}, "sum of samples");
+        allocate(width, height);
         output_ = Texture({GL_RGBA32F, width, height}, "mean of samples");
         output_.setLinear(false);
-        const Framebuffer::Attachment sum[] = {{&sum_}}, output[] = {{&output_}};
-        sumTarget_ = Framebuffer(sum, nullptr, "sum of samples");
+        const Framebuffer::Attachment output[] = {{&output_}};
         outputTarget_ = Framebuffer(output, nullptr, "mean of samples");
         if (!add_.program()) {
             add_ = FullscreenPass("common/add_layers.frag.glsl");
@@ -51,10 +73,16 @@ void SampleSum::begin(const EyeFrame& frame) {
                   frame.firstSample, frame.subsamples, frame.show, frame.scene.version()};
     if (frame.samplesNow > 0 && key == key_ && !resized) return;
     key_ = key;
-    drawn_ = 0;
-    weight_ = 0.0;
-    const float zero[] = {0.0f, 0.0f, 0.0f, 0.0f};
-    glClearNamedFramebufferfv(sumTarget_.name(), GL_COLOR, 0, zero);
+    clear();
+}
+
+void SampleSum::divide(int parts, int levels) {
+    if (parts_.size() == static_cast<std::size_t>(parts) && levels_ == levels) return;
+    parts_.clear();
+    parts_.resize(static_cast<std::size_t>(parts));
+    levels_ = levels;
+    allocate(output_.width(), output_.height());
+    clear();
 }
 
 void SampleSum::refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw) {
@@ -80,11 +108,24 @@ void SampleSum::addDrawn(const FullscreenPass& pass, int count, int weight) {
 }
 
 const Texture& SampleSum::mean() {
+    return mean(mean_);
+}
+
+const Texture& SampleSum::mean(const FullscreenPass& pass) {
+    for (GLuint i = 0; i < parts_.size(); ++i) {
+        if (parts_[i].spec().levels > 1) glGenerateTextureMipmap(parts_[i].name());
+        parts_[i].bind(i);
+    }
     outputTarget_.bind();
-    sum_.bind(0);
-    mean_.program().set("scale", static_cast<float>(1.0 / weight_));
-    mean_.draw();
+    pass.program().set("scale", static_cast<float>(1.0 / weight_));
+    pass.draw();
     return output_;
+}
+
+std::size_t SampleSum::bytes() const {
+    if (!output_) return 0;
+    return std::accumulate(parts_.begin(), parts_.end(), output_.bytes(),
+                           [](std::size_t sum, const Texture& part) { return sum + part.bytes(); });
 }
 
 float textureLodBias(int samples) {

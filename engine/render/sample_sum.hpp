@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "gl/objects.hpp"
 #include "gl/program.hpp"
@@ -38,6 +39,10 @@ class SampleSum {
     /// Ready for more samples of `frame`: those of former frames are kept where it draws some of them at a time and
     /// nothing that the picture depends on is new.
     void begin(const EyeFrame& frame);
+    /// With nothing drawn yet: the sum is kept in so many parts from now on, at first in one. `levels`: of the mipmaps
+    /// that mean() makes of all but the first. Parts are larger than the picture, right and on top, where the coarsest
+    /// level would not have whole texels; passes then fill that, too.
+    void divide(int parts, int levels);
     /// Calls `draw` with the number of samples, at most `most`, that it is to draw and add next, until there are as
     /// many as the frame asks for, at all or now.
     void refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw);
@@ -47,14 +52,19 @@ class SampleSum {
 
     /// Adds the first `count` layers.
     void add(const SampleLayers& layers, int count);
-    /// Adds what `pass` draws over the whole picture: the sum, in rgb, of `count` samples, each counted `weight` times
-    /// on the mean.
+    /// Adds what `pass` draws over the whole picture, to an output for each part: the sum, in rgb, of `count` samples,
+    /// which together count as `weight`.
     void addDrawn(const FullscreenPass& pass, int count, int weight);
-    /// Their mean, RGBA32F.
+    /// Their mean, RGBA32F, where there is one part.
     const Texture& mean();
-    std::size_t bytes() const { return sum_ ? sum_.bytes() + output_.bytes() : 0; }
+    /// What `pass` makes of the parts, bound to units 0 and on, with `scale` to multiply them by.
+    const Texture& mean(const FullscreenPass& pass);
+    std::size_t bytes() const;
 
   private:
+    void allocate(int width, int height);
+    void clear();
+
     /// What the sum so far is of.
     struct Key {
         const GpuScene* scene = nullptr;
@@ -71,7 +81,9 @@ class SampleSum {
     Key key_;
     int drawn_ = 0;
     double weight_ = 0.0;
-    Texture sum_, output_;
+    int levels_ = 1;
+    std::vector<Texture> parts_ = std::vector<Texture>(1);
+    Texture output_;
     Framebuffer sumTarget_, outputTarget_;
     FullscreenPass add_, mean_;
 };

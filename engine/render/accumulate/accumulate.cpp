@@ -62,6 +62,8 @@ void Accumulate::makePlan(const EyeFrame& frame) {
         plan_.levels.push_back(detailLevel(frame.view, frame.lens, seen));
         blur.push_back(cocExtent(frame.view, frame.lens, seen.box).largest);
     }
+    if (frame.subsamples > 0)
+        plan_.footprints = requiredFootprints(frame, list_.seen(), frame.samples * (frame.subsamples + 1.0));
     plan_.shared.assign(blur.size(), false);
     // Without a choice of layers there is nothing to draw sprites to.
     if (GpuScene::mostMatrices() < gpu::kMostMatrices) return;
@@ -153,7 +155,7 @@ void Accumulate::drawGroup(const EyeFrame& frame, int count) {
     }
     PassScope scope(frame.log, "sub-samples");
     const glm::dvec2 f = focalLengthPixels(frame.view);
-    blur_.add({layers_, first, count, cocTransform(frame), f.y / f.x}, subsamples_, sum_);
+    blur_.add({layers_, first, count, cocTransform(frame), f.y / f.x, plan_.footprints}, subsamples_, sum_);
 }
 
 const Texture& Accumulate::showLevels(const EyeFrame& frame) {
@@ -163,6 +165,7 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     sum_.begin(anew);
     frame.scene.see(list_, frame.view, nullptr);
     makePlan(frame);
+    sum_.divide(1, 1);
     const int levels = list_.seen().empty() ? 0 : std::ranges::max(list_.seen(), {}, &DrawList::Seen::levels).levels();
     const glm::mat4 clip(clipFromView(frame.view));
     PassScope scope(frame.log, "show");
@@ -205,6 +208,8 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
     }
     if (sum_.drawn() == 0) {
         makePlan(frame);
+        sum_.divide(plan_.footprints.parts(), gpu::kCoarseLevel + 1);
+        if (!plan_.footprints.wide) frame.log.skip("footprints", "points of the lens see no more than a pixel apart");
         sprites_.drawn = 0;
         if (plan_.sharing.parents.empty()) frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
         const SubsampleKey key{frame.samples, frame.subsamples, frame.firstSample, frame.lens.blades,
@@ -214,6 +219,10 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
         subsampleKey_ = key;
     }
     sum_.refine(frame, layers, [&](int count) { drawGroup(frame, count); });
+    if (plan_.footprints.wide) {
+        PassScope scope(frame.log, "footprints");
+        return footprintPass_.draw(sum_, plan_.footprints);
+    }
     PassScope scope(frame.log, "average");
     return sum_.mean();
 }

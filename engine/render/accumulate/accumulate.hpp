@@ -2,12 +2,13 @@
 // [JKLL13] Jeong et al. 2013, "Real-time defocus rendering with level of detail and sub-sample blur"; and
 // Jeong's dissertation, ch. 3.
 //
-// The mean of N pictures through points of the lens, as the reference's, made cheaper in three ways:
+// The mean of N pictures through points of the lens, as the reference's, made cheaper in four ways:
 // - what is blurred is drawn with as many triangles as its blur can tell from more (detail.hpp);
 // - what is hardly blurred is drawn once for all points of the lens that see it in the same places (sharing.hpp), into
 //   sprites that samples begin with. [JKLL13] groups the samples for each object, and copies each; here all objects up
 //   to one CoC share one grouping, so that thousands take one copy. Blended surfaces are drawn for each sample;
-// - each picture serves some more points of the lens around its own (subsample_blur.hpp).
+// - each picture serves some more points of the lens around its own (subsample_blur.hpp);
+// - with these, what points see is smoothed by how far apart they see it (footprints.hpp). [JKLL13] has the plain mean.
 // Textures of what is blurred are read no finer than its samples lie apart. With no textures, level 0 for all, nothing
 // shared and no sub-samples it is the reference, to the bit.
 //
@@ -39,6 +40,7 @@ class Accumulate final : public Technique {
         std::vector<double> levels;  // of detail, of each seen item
         std::vector<bool> shared;    // of each seen item: whether samples share renderings of it
         SharedRenderings sharing;    // no parents where nothing is shared
+        Footprints footprints;       // narrow without sub-samples
     };
     const Plan& plan() const { return plan_; }
 
@@ -71,6 +73,7 @@ class Accumulate final : public Technique {
     } sprites_;
     SampleSum sum_;
     SubsampleBlur blur_;
+    FootprintPass footprintPass_;
     FullscreenPass spritePass_;
     GeometryPass geometry_;  // for --show
     ShowPass show_;

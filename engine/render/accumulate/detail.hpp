@@ -31,7 +31,7 @@ double detailLevel(double cocArea, double triangleArea, int mostLevel);
 /// 512x384 --diameter 12` (fishes: 256) gave SSIM at N = 32, S = 4, equal-quality speed-up and triangles left:
 /// toys 0.980, 4.0, 56 % with 0.03; 0.977, 3.4, 40 % with 0.1; 0.968, 2.7, 30 % with 0.3; 0.974, 2.0, 33 % without
 /// (1024x768). Fishes 0.965, 4.3, 49 % with 0.03; 0.956, 3.7, 29 % with 0.1.
-inline constexpr double kErrorOfBlur = 0.04;
+inline constexpr double kErrorOfBlur = 0.02;
 
 /// Of an item: eq. 3 with C = pi c² of its smallest CoC radius and, eq. 4, A = A_b / (N_t / 2): half of its triangles
 /// face the eye; but no coarser than kErrorOfBlur allows, which [JKLL13] does not ask for. A fraction: so much of the

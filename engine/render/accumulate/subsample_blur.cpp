@@ -45,7 +45,6 @@ void SubsampleBlur::resize(const Texture& depths) {
     reducePass_ = FullscreenPass::layered("accumulate/reduce.frag.glsl");
     nBufferPass_ = FullscreenPass::layered("accumulate/nbuffer.frag.glsl");
     boundPass_ = FullscreenPass::layered("accumulate/bounds.frag.glsl");
-    lookupPass_ = FullscreenPass("accumulate/subsamples.frag.glsl");
 }
 
 void SubsampleBlur::bound(const Group& group, double farthest) {
@@ -96,13 +95,18 @@ void SubsampleBlur::add(const Group& group, const Subsamples& subsamples, Sample
     group.layers.colors().bind(0);
     group.layers.depths().bind(1);
     bounds_.texture.bind(2);
-    const Program& program = lookupPass_.program();
+    FullscreenPass& lookupPass = lookupPasses_[group.footprints.parts()];
+    if (!lookupPass.program())
+        lookupPass = FullscreenPass("accumulate/subsamples.frag.glsl", group.footprints.defines());
+    const Program& program = lookupPass.program();
     program.set("count", group.count);
     program.set("firstOffset", std::span<const int>(firstOffset));
     program.set("offsets", std::span<const glm::vec2>(offsets));
     program.set("farthest", static_cast<float>(subsamples.farthest * std::max(1.0, group.stretch)));
     program.set("coc", glm::vec2(group.coc.scale, group.coc.bias));
-    sum.addDrawn(lookupPass_, group.count, group.count + count);
+    program.set("variances", glm::vec4(group.footprints.variance, kLeastVariance, splineVariance(gpu::kFineLevel),
+                                       splineVariance(gpu::kCoarseLevel)));
+    sum.addDrawn(lookupPass, group.count, group.count + count);
 }
 
 std::size_t SubsampleBlur::bytes() const {

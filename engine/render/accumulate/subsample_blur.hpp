@@ -18,10 +18,12 @@
 // Blended surfaces leave no depth: they move with what is behind them.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "gl/program.hpp"
 #include "optics/lens.hpp"
+#include "render/accumulate/footprints.hpp"
 #include "render/accumulate/subsamples.hpp"
 #include "render/sample_sum.hpp"
 
@@ -34,8 +36,9 @@ class SubsampleBlur {
         int first = 0, count = 1;  // samples: layer 0 is sample `first`
         CocTransform coc;
         double stretch = 1.0;  // pixels along y for one along x
+        Footprints footprints = {};
     };
-    /// Adds the group's layers and their sub-samples to the sum.
+    /// Adds the group's layers and their sub-samples to the sum, which has the footprints' parts.
     void add(const Group& group, const Subsamples& subsamples, SampleSum& sum);
     std::size_t bytes() const;
 
@@ -57,7 +60,8 @@ class SubsampleBlur {
     std::vector<Target> squares_;    // of 1, 2, 4, ... tiles, everywhere
     std::vector<Target> reduction_;  // from tiles to one texel
     Target bounds_;
-    FullscreenPass tilePass_, reducePass_, nBufferPass_, boundPass_, lookupPass_;
+    FullscreenPass tilePass_, reducePass_, nBufferPass_, boundPass_;
+    std::map<int, FullscreenPass> lookupPasses_;  // by parts of the sum
 };
 
 }  // namespace dioptre

@@ -1,0 +1,45 @@
+#include "render/accumulate/footprints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dioptre {
+
+std::vector<std::string> Footprints::defines() const {
+    std::vector<std::string> all;
+    if (wide) all.emplace_back("WIDE");
+    if (inFront) all.emplace_back("IN_FRONT");
+    return all;
+}
+
+Footprints requiredFootprints(const EyeFrame& frame, std::span<const DrawList::Seen> seen, double points) {
+    const glm::dvec2 f = focalLengthPixels(frame.view);
+    // The background counts, too: it is seen wherever nothing is. Nothing behind focus is more blurred.
+    const double background = cocRadiusPixels(frame.lens, f.x, Dioptres(0.0));
+    double inFront = std::max(0.0, -background);
+    for (const DrawList::Seen& item : seen) {
+        const Dioptres nearest(1.0 / std::max(frame.view.near.value, item.box.nearest()));
+        inFront = std::max(inFront, -cocRadiusPixels(frame.lens, f.x, nearest));
+    }
+    Footprints result;
+    // Where pixels are not square footprints are as narrow as along the axis with less blur.
+    const double narrower = std::min(1.0, f.y / f.x);
+    result.variance = kFootprint / points * narrower * narrower;
+    const auto wide = [&](double radius) { return radius * radius * result.variance > kLeastVariance; };
+    result.inFront = wide(inFront);
+    result.wide = result.inFront || wide(std::max(0.0, background));
+    return result;
+}
+
+double splineVariance(int level) {
+    const double pixels = std::exp2(2.0 * level);
+    return pixels / 3.0 + (pixels - 1.0) / 12.0;
+}
+
+const Texture& FootprintPass::draw(SampleSum& sum, const Footprints& footprints) {
+    FullscreenPass& pass = footprints.inFront ? all_ : behind_;
+    if (!pass.program()) pass = FullscreenPass("accumulate/footprints.frag.glsl", footprints.defines());
+    return sum.mean(pass);
+}
+
+}  // namespace dioptre
