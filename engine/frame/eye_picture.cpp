@@ -17,6 +17,7 @@ const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
     apply(plan, sizedFrame);
     sizedFrame.firstSample = frame.firstSample;
     sizedFrame.samplesNow = frame.samplesNow;
+    sizedFrame.sight = frame.sight;
     return technique->draw(sizedFrame);
 }
 
@@ -54,6 +55,7 @@ const Texture& EyePicture::refine(const Plan& plan, int samplesNow, const EyeFra
     EyeFrame more{frame.scene, frame.view, frame.lens, frame.exposure, 0, frame.show, frame.log};
     apply(plan, more);
     more.samplesNow = samplesNow;
+    more.sight = frame.sight;
     const Texture& picture = refining_->draw(more);
     refinedSamples_ = static_cast<int>(std::lround(refining_->progress() * more.samples));
     return picture;

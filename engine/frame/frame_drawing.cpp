@@ -6,11 +6,15 @@
 
 namespace dioptre {
 
-std::vector<EyeFrame> FrameMaker::eyeFrames(std::span<const View> views, PassLog& log) const {
+/// Valid until the next call.
+std::vector<EyeFrame> FrameMaker::eyeFrames(std::span<const View> views, PassLog& log) {
     const auto exposure = static_cast<float>(std::exp2(settings_.render.exposureEv));
+    sight_ = scene_.inSight(views, report_.lens.lens);
     std::vector<EyeFrame> frames;
-    for (const View& view : views)
+    for (const View& view : views) {
         frames.push_back({scene_, view, report_.lens.lens, exposure, 0, settings_.render.show, log});
+        frames.back().sight = &sight_;
+    }
     return frames;
 }
 

@@ -131,7 +131,7 @@ class FrameMaker {
     std::optional<GazeDepth> gazeDepth(const View& centre, bool mayLag);
     Decision decide(const Input& input, bool unseen);
     bool unseenNow(const Input& input);
-    std::vector<EyeFrame> eyeFrames(std::span<const View> views, PassLog& log) const;
+    std::vector<EyeFrame> eyeFrames(std::span<const View> views, PassLog& log);
     void prepare();
     void lookAhead();
     void drawNamed(const Input& input);
@@ -153,6 +153,7 @@ class FrameMaker {
     std::optional<double> lastTime_;
     bool fresh_ = true;       // nothing was drawn yet by these eyes and this way to draw
     std::vector<View> eyes_;  // one, or left and right
+    Sight sight_;             // of both; of the frames made last
     PlannedPictures pictures_;
     Plan named_;                           // by the settings, where planned_ is false
     std::optional<FramePlanner> planner_;  // what it learnt outlives frames that settings plan

@@ -20,8 +20,9 @@ double fetchesOf(const Plan& plan) {
         case TechniqueChoice::mipmap:
             return 22.0 + 2.0 * plan.msaa.value_or(0);
         case TechniqueChoice::accumulate:
-            // Sub-samples are searched along a line: bounds, then a few fetches for each.
-            return 1.0 + samples * (plan.subsamples.value_or(0) > 0 ? 4.0 + 2.0 * *plan.subsamples : 1.0);
+            // Sub-samples are searched along a line: bounds, then a few fetches for each. Their footprints are smoothed.
+            if (plan.subsamples.value_or(0) > 0) return 20.0 + samples * (4.0 + 2.0 * *plan.subsamples);
+            return 1.0 + samples;
         case TechniqueChoice::reference:
             return 1.0 + samples;
     }

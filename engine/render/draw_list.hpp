@@ -29,6 +29,9 @@ ViewBox boxInView(const glm::dmat4& viewFromMesh, const Bounds& bounds);
 /// False only if no point of the box can be inside the frustum, seen from any point of the lens (none: from the eye).
 bool mayBeSeen(const View& view, const Lens* lens, const ViewBox& box);
 
+/// Items, increasing (GpuScene::inSight).
+using Sight = std::vector<std::uint32_t>;
+
 class DrawList {
   public:
     /// One primitive of one instance.

@@ -34,7 +34,7 @@ void GeometryPass::draw(const EyeFrame& frame) {
         const float infinitelyFar = 0.0f;
         glClearNamedFramebufferfv(drawn.name(), GL_COLOR, 0, black);
         glClearNamedFramebufferfv(drawn.name(), GL_DEPTH, 0, &infinitelyFar);
-        frame.scene.drawRadiance(frame.view, frame.exposure, frame.detailPx);
+        frame.scene.drawRadiance(frame.view, frame.exposure, frame.detailPx, frame.sight);
     }
     if (msaa > 0) {
         PassScope scope(frame.log, "resolve");

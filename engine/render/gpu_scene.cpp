@@ -254,11 +254,14 @@ std::vector<std::uint64_t> GpuScene::triangles(const View& view, std::span<const
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
     std::vector<std::uint64_t> sums(detailPx.size(), 0);
     for (std::size_t i = 0; i < items_.size(); ++i) {
-        const auto seen = seenItem(i, viewFrom * items_[i].worldFromMesh, view, nullptr);
-        if (!seen || seen->triangles == 0) continue;
+        const glm::dmat4 viewFromMesh = viewFrom * items_[i].worldFromMesh;
+        const ViewBox box = boxInView(viewFromMesh, items_[i].bounds);
+        if (!mayBeSeen(view, nullptr, box)) continue;
+        const DrawList::Seen seen = seenItem(i, box, viewFromMesh);
+        if (seen.triangles == 0) continue;
         const std::vector<IndexRange>& levels = levels_[items_[i].primitive].indices;
         for (std::size_t k = 0; k < sums.size(); ++k)
-            sums[k] += levels[static_cast<std::size_t>(levelWithin(view, *seen, detailPx[k]))].count / 3;
+            sums[k] += levels[static_cast<std::size_t>(levelWithin(view, seen, detailPx[k]))].count / 3;
     }
     return sums;
 }
@@ -267,8 +270,8 @@ int GpuScene::mostMatrices() {
     return GLAD_GL_ARB_shader_viewport_layer_array ? gpu::kMostMatrices : 1;
 }
 
-void GpuScene::seeWhole(const View& view, double detailPx) const {
-    see(whole_, view, nullptr);
+void GpuScene::seeWhole(const View& view, double detailPx, const Sight* sight) const {
+    see(whole_, view, nullptr, sight);
     std::vector<std::int8_t> levels;
     levels.reserve(whole_.seen().size());
     for (const DrawList::Seen& seen : whole_.seen())
@@ -276,8 +279,8 @@ void GpuScene::seeWhole(const View& view, double detailPx) const {
     arrange(whole_, 1, levels);
 }
 
-void GpuScene::drawRadiance(const View& view, float exposure, double detailPx) const {
-    seeWhole(view, detailPx);
+void GpuScene::drawRadiance(const View& view, float exposure, double detailPx, const Sight* sight) const {
+    seeWhole(view, detailPx, sight);
     const glm::mat4 clip(clipFromView(view));
     const Through through{{&clip, 1}, exposure};
     const std::vector<Run>& runs = whole_.runs_;
@@ -291,7 +294,7 @@ void GpuScene::drawRadiance(const View& view, float exposure, double detailPx) c
 }
 
 void GpuScene::drawDepth(const View& view, double detailPx) const {
-    seeWhole(view, detailPx);
+    seeWhole(view, detailPx, nullptr);
     const glm::mat4 clip(clipFromView(view));
     drawRuns(whole_, whole_.runs_, Phase::depth, {{&clip, 1}});
 }
@@ -303,22 +306,33 @@ void GpuScene::drawThroughLens(const DrawList& list, std::span<const glm::mat4> 
     drawBlended(list, through);
 }
 
-std::optional<DrawList::Seen> GpuScene::seenItem(std::size_t index, const glm::dmat4& viewFromMesh, const View& view,
-                                                 const Lens* lens) const {
+DrawList::Seen GpuScene::seenItem(std::size_t index, const ViewBox& box, const glm::dmat4& viewFromMesh) const {
     const Item& item = items_[index];
-    const ViewBox box = boxInView(viewFromMesh, item.bounds);
-    if (!mayBeSeen(view, lens, box)) return std::nullopt;
     const Levels& levels = levels_[item.primitive];
     const bool triangles = item.state.topology == Topology::triangles;
-    return DrawList::Seen{static_cast<std::uint32_t>(index),
-                          box,
-                          item.state.blended,
-                          triangles ? levels.indices.front().count / 3 : 0,
-                          std::span(levels.errors).first(item.bent < 0 ? levels.errors.size() : 1),
-                          mostStretch(glm::dmat3(viewFromMesh))};
+    return {static_cast<std::uint32_t>(index),
+            box,
+            item.state.blended,
+            triangles ? levels.indices.front().count / 3 : 0,
+            std::span(levels.errors).first(item.bent < 0 ? levels.errors.size() : 1),
+            mostStretch(glm::dmat3(viewFromMesh))};
 }
 
-void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
+Sight GpuScene::inSight(std::span<const View> eyes, const Lens& lens) const {
+    std::vector<glm::dmat4> viewFrom;
+    for (const View& eye : eyes) viewFrom.push_back(viewFromWorld(eye.pose));
+    Sight sight;
+    for (std::size_t i = 0; i < items_.size(); ++i)
+        for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+            const ViewBox box = boxInView(viewFrom[eye] * items_[i].worldFromMesh, items_[i].bounds);
+            if (!mayBeSeen(eyes[eye], &lens, box)) continue;
+            sight.push_back(static_cast<std::uint32_t>(i));
+            break;
+        }
+    return sight;
+}
+
+void GpuScene::see(DrawList& list, const View& view, const Lens* lens, const Sight* sight) const {
     const glm::dmat4 viewFrom = viewFromWorld(view.pose);
     // The matrices are made eye-relative in double precision.
     std::vector<glm::mat4> instances(items_.size());
@@ -326,12 +340,13 @@ void GpuScene::see(DrawList& list, const View& view, const Lens* lens) const {
     list.blended_.clear();
     list.runs_.clear();
     list.blendedRuns_.clear();
-    for (std::size_t i = 0; i < items_.size(); ++i) {
+    for (std::size_t n = 0; n < (sight ? sight->size() : items_.size()); ++n) {
+        const std::size_t i = sight ? (*sight)[n] : n;
         const glm::dmat4 viewFromMesh = viewFrom * items_[i].worldFromMesh;
-        const auto seen = seenItem(i, viewFromMesh, view, lens);
-        if (!seen) continue;
+        const ViewBox box = boxInView(viewFromMesh, items_[i].bounds);
+        if (!mayBeSeen(view, lens, box)) continue;
         instances[i] = glm::mat4(viewFromMesh);
-        list.seen_.push_back(*seen);
+        list.seen_.push_back(seenItem(i, box, viewFromMesh));
     }
     sortFrontToBack(list);
     for (std::size_t i = 0; i < list.seen_.size(); ++i)
@@ -434,7 +449,8 @@ void GpuScene::setLodBias(float bias) const {
 void GpuScene::drawBlended(const DrawList& list, const Through& through) const {
     if (list.blendedRuns_.empty()) return;
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    // Alpha is left with how much of what is behind is seen.
+    glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
     drawRuns(list, list.blendedRuns_, Phase::blended, through);
     glDepthMask(GL_TRUE);

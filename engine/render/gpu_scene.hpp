@@ -70,11 +70,15 @@ class GpuScene {
     /// left is that of the surface which gives the pixel most of its light: of a blended one where its alpha is 0.5 or
     /// more.
     /// Levels of detail may be off by `detailPx` pixels of the view; 0: all at level 0.
-    void drawRadiance(const View& view, float exposure, double detailPx) const;
+    /// Nothing outside of the sight is looked at.
+    void drawRadiance(const View& view, float exposure, double detailPx, const Sight* sight = nullptr) const;
     void drawDepth(const View& view, double detailPx) const;
 
-    /// What `view` sees or, with a lens, what any of its points does. Draws nothing before it is arranged.
-    void see(DrawList& list, const View& view, const Lens* lens) const;
+    /// What any point of the lens sees, from any of these eyes: found once for all of them.
+    Sight inSight(std::span<const View> eyes, const Lens& lens) const;
+    /// What `view` sees or, with a lens, what any of its points does; nothing outside of the sight is looked at. Draws
+    /// nothing before it is arranged.
+    void see(DrawList& list, const View& view, const Lens* lens, const Sight* sight = nullptr) const;
     /// Each seen item at a level of detail (in the order of list.seen(); DrawList::kHidden: not at all; none given:
     /// all at level 0), as often as a call will have matrices.
     void arrange(DrawList& list, int matrices, std::span<const std::int8_t> levels = {}) const;
@@ -139,9 +143,8 @@ class GpuScene {
     void drawBlended(const DrawList& list, const Through& through) const;
     void drawRuns(const DrawList& list, std::span<const Run> runs, Phase phase, const Through& through) const;
     void bind(const Run& run) const;
-    std::optional<DrawList::Seen> seenItem(std::size_t index, const glm::dmat4& viewFromMesh, const View& view,
-                                           const Lens* lens) const;
-    void seeWhole(const View& view, double detailPx) const;
+    DrawList::Seen seenItem(std::size_t index, const ViewBox& box, const glm::dmat4& viewFromMesh) const;
+    void seeWhole(const View& view, double detailPx, const Sight* sight) const;
 
     std::vector<Item> items_;  // sorted by state
     struct Levels {            // level 0 first

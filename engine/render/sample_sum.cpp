@@ -1,6 +1,7 @@
 #include "render/sample_sum.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -34,17 +35,22 @@ void SampleLayers::clear(int first, int count) const {
                        &infinitelyFar);
 }
 
-void SampleSum::allocate(int width, int height) {
-    std::vector<Framebuffer::Attachment> targets;
-    const int coarsest = 1 << (levels_ - 1);
+void SampleSum::allocate(int width, int height, int count, int levels) {
+    // Whole or not at all: what is thrown leaves the sum as it was.
+    std::vector<Texture> parts;
+    const int coarsest = 1 << (levels - 1);
     const auto padded = [&](int size) { return (size + coarsest - 1) / coarsest * coarsest; };
-    for (Texture& part : parts_) {
-        const int levels = targets.empty() ? 1 : levels_;
-        part = Texture({GL_RGBA32F, padded(width), padded(height), levels}, "sum of samples");
-        part.setLinear(levels > 1);
-        targets.push_back({&part});
+    for (int i = 0; i < count; ++i) {
+        const int mipmaps = i > 0 ? levels : 1;
+        parts.emplace_back(TextureSpec{GL_RGBA32F, padded(width), padded(height), mipmaps}, "sum of samples");
+        parts.back().setLinear(mipmaps > 1);
     }
-    sumTarget_ = Framebuffer(targets, nullptr, "sum of samples");
+    std::vector<Framebuffer::Attachment> targets;
+    for (const Texture& part : parts) targets.push_back({&part});
+    Framebuffer target(targets, nullptr, "sum of samples");
+    parts_ = std::move(parts);
+    sumTarget_ = std::move(target);
+    levels_ = levels;
 }
 
 void SampleSum::clear() {
@@ -56,14 +62,16 @@ void SampleSum::clear() {
 }
 
 void SampleSum::begin(const EyeFrame& frame) {
-    const auto& [width, height] = std::pair(frame.view.width, frame.view.height);
+    const int width = frame.view.width, height = frame.view.height;
     const bool resized = !output_ || output_.width() != width || output_.height() != height;
     if (resized) {
-        allocate(width, height);
-        output_ = Texture({GL_RGBA32F, width, height}, "mean of samples");
-        output_.setLinear(false);
-        const Framebuffer::Attachment output[] = {{&output_}};
-        outputTarget_ = Framebuffer(output, nullptr, "mean of samples");
+        Texture output({GL_RGBA32F, width, height}, "mean of samples");
+        output.setLinear(false);
+        const Framebuffer::Attachment target[] = {{&output}};
+        Framebuffer outputTarget(target, nullptr, "mean of samples");
+        allocate(width, height, static_cast<int>(std::max<std::size_t>(1, parts_.size())), levels_);
+        output_ = std::move(output);
+        outputTarget_ = std::move(outputTarget);
         if (!add_.program()) {
             add_ = FullscreenPass("common/add_layers.frag.glsl");
             mean_ = FullscreenPass("common/mean.frag.glsl");
@@ -77,11 +85,9 @@ void SampleSum::begin(const EyeFrame& frame) {
 }
 
 void SampleSum::divide(int parts, int levels) {
+    assert(drawn_ == 0 && "a sum is divided before anything is added to it");
     if (parts_.size() == static_cast<std::size_t>(parts) && levels_ == levels) return;
-    parts_.clear();
-    parts_.resize(static_cast<std::size_t>(parts));
-    levels_ = levels;
-    allocate(output_.width(), output_.height());
+    allocate(output_.width(), output_.height(), parts, levels);
     clear();
 }
 
@@ -108,6 +114,7 @@ void SampleSum::addDrawn(const FullscreenPass& pass, int count, int weight) {
 }
 
 const Texture& SampleSum::mean() {
+    assert(parts_.size() == 1);
     return mean(mean_);
 }
 

@@ -13,7 +13,7 @@
 
 namespace dioptre {
 
-/// Radiance (RGBA16F) and reversed depth of some samples, a layer each.
+/// Radiance (RGBA16F; in alpha, what blended surfaces leave of it) and reversed depth of some samples, a layer each.
 class SampleLayers {
   public:
     explicit SampleLayers(std::string_view label) : label_(label) {}
@@ -40,8 +40,8 @@ class SampleSum {
     /// nothing that the picture depends on is new.
     void begin(const EyeFrame& frame);
     /// With nothing drawn yet: the sum is kept in so many parts from now on, at first in one. `levels`: of the mipmaps
-    /// that mean() makes of all but the first. Parts are larger than the picture, right and on top, where the coarsest
-    /// level would not have whole texels; passes then fill that, too.
+    /// that mean() makes of all but the first; 1: none. Parts are larger than the picture, right and on top, where the
+    /// coarsest level would not have whole texels: what is added fills that, too.
     void divide(int parts, int levels);
     /// Calls `draw` with the number of samples, at most `most`, that it is to draw and add next, until there are as
     /// many as the frame asks for, at all or now.
@@ -62,7 +62,7 @@ class SampleSum {
     std::size_t bytes() const;
 
   private:
-    void allocate(int width, int height);
+    void allocate(int width, int height, int count, int levels);
     void clear();
 
     /// What the sum so far is of.
@@ -82,7 +82,7 @@ class SampleSum {
     int drawn_ = 0;
     double weight_ = 0.0;
     int levels_ = 1;
-    std::vector<Texture> parts_ = std::vector<Texture>(1);
+    std::vector<Texture> parts_;
     Texture output_;
     Framebuffer sumTarget_, outputTarget_;
     FullscreenPass add_, mean_;

@@ -30,7 +30,8 @@ struct EyeFrame {
     // reference, accumulate: 0 draws all samples now; more: at most so many more in this picture, which goes on from
     // the last one while nothing else here changes.
     int samplesNow = 0;
-    double detailPx = 0.0;  // pinhole, mipmap: what levels of detail may be off, pixels of the view; 0: level 0
+    double detailPx = 0.0;         // pinhole, mipmap: what levels of detail may be off, pixels of the view; 0: level 0
+    const Sight* sight = nullptr;  // GpuScene::inSight of all eyes' frames; none: this view looks for itself
 };
 
 class Technique {

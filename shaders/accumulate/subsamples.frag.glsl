@@ -43,10 +43,11 @@ vec3 place(vec2 pixel, int layer, vec2 offset, vec2 radii) {
     float length = (radii.y - radii.x) * perRadius;
     bool found = length < kTolerance;
     float middle = 0.5 * (radii.x + radii.y);
-    vec3 at = vec3(pixel - middle * offset, middle);
+    vec3 at = vec3(pixel - middle * offset, 0.0);
+    at.z = radiusAt(at.xy, layer);
     int steps = min(int(ceil(length)), kMostSteps);
     float stride = (radii.y - radii.x) / float(max(steps, 1));
-    float tolerance = max(kTolerance, 0.75 * abs(stride) * perRadius) / perRadius;
+    float tolerance = max(kTolerance, 0.75 * abs(stride) * perRadius) / max(perRadius, 1e-9);
     // The nearest bound is before all there is: but for rounding, the first place is behind.
     vec3 behind = vec3(pixel, radii.x);
     for (int i = 0; i <= steps && !found; ++i) {
@@ -61,12 +62,16 @@ vec3 place(vec2 pixel, int layer, vec2 offset, vec2 radii) {
     return found ? at : vec3(floor(behind.xy) + 0.5, behind.z);
 }
 
-void add(vec3 color, float radius) {
-    vec4 one = vec4(color, 1.0);
+// A blended surface is not where what is behind it is: of a color with that alpha, which such surfaces leave of what has
+// a depth, so much moves and blurs with that. From alpha 0.5 of theirs on nothing does.
+float ofDepth(float alpha) { return smoothstep(0.5, 1.0, alpha); }
+
+void add(vec4 seen, float radius) {
+    vec4 one = vec4(seen.rgb, 1.0);
 #ifdef WIDE
     float variance = radius * radius * variances.x;
-    float wide = clamp((variance - variances.y) / (variances.z - variances.y), 0.0, 1.0);
-    float coarse = clamp((variance - variances.z) / (variances.w - variances.z), 0.0, 1.0);
+    float wide = ofDepth(seen.a) * clamp((variance - variances.y) / (variances.z - variances.y), 0.0, 1.0);
+    float coarse = ofDepth(seen.a) * clamp((variance - variances.z) / (variances.w - variances.z), 0.0, 1.0);
     sharp += (1.0 - wide) * one;
     vec4 fineShare = (wide - coarse) * one, coarseShare = coarse * one;
 #ifdef IN_FRONT
@@ -84,8 +89,9 @@ void add(vec3 color, float radius) {
 }
 
 void main() {
-    // Beyond the picture, where there is more of the sum, the last pixel goes on.
-    vec2 pixel = min(gl_FragCoord.xy, vec2(textureSize(depths, 0).xy) - 0.5);
+    // Beyond the picture, where there is more of the sum, it is mirrored.
+    vec2 size = vec2(textureSize(depths, 0).xy);
+    vec2 pixel = max(min(gl_FragCoord.xy, 2.0 * size - gl_FragCoord.xy), vec2(0.5));
     sharp = vec4(0.0);
 #ifdef WIDE
     fineBehind = coarseBehind = vec4(0.0);
@@ -94,19 +100,23 @@ void main() {
     fineInFront = coarseInFront = vec4(0.0);
 #endif
     for (int layer = 0; layer < count; ++layer) {
-        vec3 own = texelFetch(colors, texelAt(pixel, layer), 0).rgb;
+        vec4 own = texelFetch(colors, texelAt(pixel, layer), 0);
         vec2 radii = texelFetch(bounds, ivec3(ivec2(pixel) / kTileSide, layer), 0).rg;
         int from = firstOffset[layer], to = firstOffset[layer + 1];
-        // All lookups would find the pixel itself.
-        if (max(abs(radii.x), abs(radii.y)) * farthest < 0.5) {
-            sharp += vec4(own, 1.0) * float(to - from + 1);
+        float largest = max(abs(radii.x), abs(radii.y));
+        // All lookups would find the pixel itself, and none is wide.
+        if (largest * farthest < 0.5 && largest * largest * variances.x <= variances.y) {
+            sharp += vec4(own.rgb, 1.0) * float(to - from + 1);
             continue;
         }
-        add(own, radiusAt(pixel, layer));
+        float ownRadius = radiusAt(pixel, layer);
+        add(own, ownRadius);
         for (int i = from; i < to; ++i) {
             vec3 found = place(pixel, layer, offsets[i], radii);
             // Between texels: nearest ones gave SSIM 0.980 to the reference where linear ones gave 0.984.
-            add(texture(colors, vec3(found.xy / vec2(textureSize(colors, 0).xy), layer)).rgb, found.z);
+            vec4 seen = textureLod(colors, vec3(found.xy / size, layer), 0.0);
+            float moves = ofDepth(min(seen.a, own.a));
+            add(mix(own, seen, moves), mix(ownRadius, found.z, moves));
         }
     }
 }

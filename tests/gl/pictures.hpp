@@ -19,7 +19,7 @@ struct Shot {
     int msaa = 0;
     float exposure = 1.0f;
     ShowStage show;
-    int samples = 16;
+    int samples = 16, subsamples = 2;  // of techniques that have them
 };
 
 inline Image readPicture(const Texture& texture) {
@@ -30,8 +30,8 @@ inline Image readPicture(const Texture& texture) {
 
 inline Image draw(Technique& technique, const GpuScene& scene, const Shot& shot) {
     PassLog log;
-    return readPicture(
-        technique.draw({scene, shot.view, shot.lens, shot.exposure, shot.msaa, shot.show, log, shot.samples}));
+    return readPicture(technique.draw(
+        {scene, shot.view, shot.lens, shot.exposure, shot.msaa, shot.show, log, shot.samples, shot.subsamples}));
 }
 
 inline Image draw(TechniqueChoice choice, const GpuScene& scene, const Shot& shot) {

@@ -11,6 +11,7 @@
 #include "csv_table.hpp"
 #include "optics/lens_samples.hpp"
 #include "render/accumulate/detail.hpp"
+#include "render/accumulate/footprints.hpp"
 #include "render/accumulate/sharing.hpp"
 #include "render/accumulate/subsamples.hpp"
 
@@ -209,6 +210,68 @@ TEST(SubsamplesTest, WithTheirPrimariesTheyAreThePrefixOfTheSequence) {
                         << "sample " << i << " of " << count << " with " << each;
                 }
             }
+}
+
+// A spot of one pixel, at all places in a level's texel: their mean over the texel, then the spline.
+TEST(FootprintsTest, VarianceIsThatOfTheSplineOverALevel) {
+    const auto spline = [](double x) {
+        const double a = std::abs(x);
+        if (a < 1.0) return 2.0 / 3.0 - a * a + 0.5 * a * a * a;
+        return a < 2.0 ? (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0 : 0.0;
+    };
+    for (int level = 0; level <= 4; ++level) {
+        const int side = 1 << level;
+        double light = 0.0, variance = 0.0;
+        for (int spot = 0; spot < side; ++spot)
+            for (int x = -4 * side; x <= 4 * side; ++x) {
+                const double weight = spline((x + 0.5) / side - 0.5) / side;
+                light += weight / side;
+                variance += weight / side * (x - spot) * (x - spot);
+            }
+        EXPECT_NEAR(light, 1.0, 1e-9) << level;
+        EXPECT_NEAR(variance, splineVariance(level), 1e-9) << level;
+    }
+}
+
+TEST(FootprintsTest, AreWideWhereBlurOutgrowsThePoints) {
+    const View view = aView();
+    const auto seenAt = [](double near, double far) {
+        DrawList::Seen seen;
+        seen.box = {{0.0, 0.0, -0.5 * (near + far)}, {0.1, 0.1, 0.5 * (far - near)}};
+        return seen;
+    };
+    const auto of = [&](double apertureRadius, double focus, double points, const DrawList::Seen& seen) {
+        return requiredFootprints(view, {Metres(apertureRadius), Metres(0.017), Dioptres(focus)}, points, {&seen, 1});
+    };
+    struct Case {
+        double radius, focus, near;
+        bool wide, inFront;
+    };
+    // At 72 points from 1.47 px on. f is 640 px: 4 mm are 2.56 px for a dioptre.
+    for (const Case& c : {Case{0.0, 1.0, 0.2, false, false},
+                          {0.004, 0.5, 2.0, false, false},
+                          {0.004, 0.6, 2.0, true, false},
+                          {0.004, 0.5, 0.98, false, false},
+                          {0.004, 0.5, 0.9, true, true},
+                          {0.004, 0.0, 1.8, false, false},
+                          {0.004, 0.0, 1.7, true, true},
+                          {0.004, -0.6, 1e9, true, true},
+                          {0.004, 2.0, 0.01, true, true}}) {
+        const Footprints found = of(c.radius, c.focus, 72.0, seenAt(c.near, c.near + 10.0));
+        EXPECT_EQ(found.wide, c.wide) << c.radius << " m, " << c.focus << " D, " << c.near << " m";
+        EXPECT_EQ(found.inFront, c.inFront) << c.radius << " m, " << c.focus << " D, " << c.near << " m";
+        EXPECT_EQ(found.parts(), c.inFront ? 5 : c.wide ? 3 : 1);
+        EXPECT_NEAR(found.variance, kFootprint / 72.0, 1e-12);
+    }
+    EXPECT_EQ(of(0.004, 0.6, 2.0, seenAt(1.0, 2.0)).variance, kMostFootprint);
+    View half = view;
+    half.width /= 2;
+    const DrawList::Seen seen = seenAt(1.0, 2.0);
+    const Lens lens{Metres(0.004), Metres(0.017), Dioptres(1.0)};
+    EXPECT_NEAR(requiredFootprints(half, lens, 72.0, {&seen, 1}).variance, kFootprint / 72.0, 1e-12);
+    View low = view;
+    low.height /= 2;
+    EXPECT_NEAR(requiredFootprints(low, lens, 72.0, {&seen, 1}).variance, kFootprint / 72.0 / 4.0, 1e-12);
 }
 
 TEST(SubsamplesTest, NoneAreAskedForNoneAreThere) {

@@ -1,6 +1,7 @@
 #include "render/accumulate/accumulate.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -63,7 +64,8 @@ void Accumulate::makePlan(const EyeFrame& frame) {
         blur.push_back(cocExtent(frame.view, frame.lens, seen.box).largest);
     }
     if (frame.subsamples > 0)
-        plan_.footprints = requiredFootprints(frame, list_.seen(), frame.samples * (frame.subsamples + 1.0));
+        plan_.footprints =
+            requiredFootprints(frame.view, frame.lens, frame.samples * (frame.subsamples + 1.0), list_.seen());
     plan_.shared.assign(blur.size(), false);
     // Without a choice of layers there is nothing to draw sprites to.
     if (GpuScene::mostMatrices() < gpu::kMostMatrices) return;
@@ -194,8 +196,9 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
 }
 
 const Texture& Accumulate::draw(const EyeFrame& frame) {
+    showsStage_ = frame.show.stage != ShowChoice::none;
     if (frame.show.stage == ShowChoice::lod) return showLevels(frame);
-    if (frame.show.stage != ShowChoice::none) {
+    if (showsStage_) {
         geometry_.draw(frame);
         return show_.draw(frame, geometry_.depth());
     }
@@ -203,13 +206,17 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
     layers_.resize(frame.view.width, frame.view.height, layers);
     sum_.begin(frame);
     if (sum_.drawn() < frame.samples) {
-        frame.scene.see(list_, frame.view, &frame.lens);
+        frame.scene.see(list_, frame.view, &frame.lens, frame.sight);
         arrangedFor_ = 0;
     }
+    assert(sum_.drawn() == 0 || plan_.levels.size() == list_.seen().size());
     if (sum_.drawn() == 0) {
         makePlan(frame);
-        sum_.divide(plan_.footprints.parts(), gpu::kCoarseLevel + 1);
-        if (!plan_.footprints.wide) frame.log.skip("footprints", "points of the lens see no more than a pixel apart");
+        sum_.divide(plan_.footprints.parts(), plan_.footprints.wide ? gpu::kCoarseLevel + 1 : 1);
+        if (frame.subsamples == 0)
+            frame.log.skip("footprints", "without sub-samples it is the plain mean");
+        else if (!plan_.footprints.wide)
+            frame.log.skip("footprints", "points of the lens see all within a pixel of one another");
         sprites_.drawn = 0;
         if (plan_.sharing.parents.empty()) frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
         const SubsampleKey key{frame.samples, frame.subsamples, frame.firstSample, frame.lens.blades,

@@ -31,7 +31,7 @@ namespace dioptre {
 class Accumulate final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
-    double progress() const override { return sum_.progress(); }
+    double progress() const override { return showsStage_ ? 1.0 : sum_.progress(); }
     const Texture& depth() const override { return layers_.depths(); }
     std::size_t bytes() const override;
 
@@ -57,6 +57,7 @@ class Accumulate final : public Technique {
     DrawList list_;
     std::vector<std::int8_t> arranged_;  // levels that the list is arranged for
     int arrangedFor_ = 0;                // matrices
+    bool showsStage_ = false;
     Plan plan_;
     struct SubsampleKey {
         int samples = 0, each = 0, first = 0, blades = 0;

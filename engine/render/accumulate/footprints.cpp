@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/shared/accumulate_types.h"
+
 namespace dioptre {
+
+int Footprints::parts() const {
+    if (!wide) return gpu::kSharp + 1;
+    return (inFront ? gpu::kCoarseInFront : gpu::kCoarseBehind) + 1;
+}
 
 std::vector<std::string> Footprints::defines() const {
     std::vector<std::string> all;
@@ -12,19 +19,19 @@ std::vector<std::string> Footprints::defines() const {
     return all;
 }
 
-Footprints requiredFootprints(const EyeFrame& frame, std::span<const DrawList::Seen> seen, double points) {
-    const glm::dvec2 f = focalLengthPixels(frame.view);
+Footprints requiredFootprints(const View& view, const Lens& lens, double points, std::span<const DrawList::Seen> seen) {
+    const glm::dvec2 f = focalLengthPixels(view);
     // The background counts, too: it is seen wherever nothing is. Nothing behind focus is more blurred.
-    const double background = cocRadiusPixels(frame.lens, f.x, Dioptres(0.0));
+    const double background = cocRadiusPixels(lens, f.x, Dioptres(0.0));
     double inFront = std::max(0.0, -background);
     for (const DrawList::Seen& item : seen) {
-        const Dioptres nearest(1.0 / std::max(frame.view.near.value, item.box.nearest()));
-        inFront = std::max(inFront, -cocRadiusPixels(frame.lens, f.x, nearest));
+        const Dioptres nearest(1.0 / std::max(view.near.value, item.box.nearest()));
+        inFront = std::max(inFront, -cocRadiusPixels(lens, f.x, nearest));
     }
     Footprints result;
     // Where pixels are not square footprints are as narrow as along the axis with less blur.
     const double narrower = std::min(1.0, f.y / f.x);
-    result.variance = kFootprint / points * narrower * narrower;
+    result.variance = std::min(kFootprint / points, kMostFootprint) * narrower * narrower;
     const auto wide = [&](double radius) { return radius * radius * result.variance > kLeastVariance; };
     result.inFront = wide(inFront);
     result.wide = result.inFront || wide(std::max(0.0, background));

@@ -15,7 +15,8 @@
 // reach: four lookups in an N-buffer. Where they are within a pixel's shift there is one lookup and no search.
 // [JKLL13] has N-buffers of pixels, of the coarsest level's depths; by tiles they cost a sixteenth, and are exact.
 //
-// Blended surfaces leave no depth: they move with what is behind them.
+// Blended surfaces leave no depth. Up to alpha 0.5 they move more and more with what is behind them; from there on
+// neither moves: there are the primary samples alone.
 #pragma once
 
 #include <map>

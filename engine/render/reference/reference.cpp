@@ -22,7 +22,8 @@ void Reference::addBatch(const EyeFrame& frame, int count) {
 }
 
 const Texture& Reference::draw(const EyeFrame& frame) {
-    if (frame.show.stage != ShowChoice::none) {
+    showsStage_ = frame.show.stage != ShowChoice::none;
+    if (showsStage_) {
         geometry_.draw(frame);
         return show_.draw(frame, geometry_.depth());
     }
@@ -30,7 +31,7 @@ const Texture& Reference::draw(const EyeFrame& frame) {
     layers_.resize(frame.view.width, frame.view.height, layers);
     sum_.begin(frame);
     if (sum_.drawn() < frame.samples) {
-        frame.scene.see(list_, frame.view, &frame.lens);
+        frame.scene.see(list_, frame.view, &frame.lens, frame.sight);
         arranged_ = 0;
     }
     {

@@ -18,7 +18,7 @@ namespace dioptre {
 class Reference final : public Technique {
   public:
     const Texture& draw(const EyeFrame& frame) override;
-    double progress() const override { return sum_.progress(); }
+    double progress() const override { return showsStage_ ? 1.0 : sum_.progress(); }
     const Texture& depth() const override { return layers_.depths(); }
     std::size_t bytes() const override { return geometry_.bytes() + layers_.bytes() + sum_.bytes(); }
     /// Each sample is read once, the sum once.
@@ -29,6 +29,7 @@ class Reference final : public Technique {
 
     DrawList list_;
     int arranged_ = 0;  // matrices that the list is arranged for
+    bool showsStage_ = false;
     SampleLayers layers_{"reference samples"};
     SampleSum sum_;
     GeometryPass geometry_;  // for --show
