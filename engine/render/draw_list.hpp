@@ -29,9 +29,6 @@ ViewBox boxInView(const glm::dmat4& viewFromMesh, const Bounds& bounds);
 /// False only if no point of the box can be inside the frustum, seen from any point of the lens (none: from the eye).
 bool mayBeSeen(const View& view, const Lens* lens, const ViewBox& box);
 
-/// Items, increasing (GpuScene::inSight).
-using Sight = std::vector<std::uint32_t>;
-
 class DrawList {
   public:
     /// One primitive of one instance.
@@ -87,6 +84,16 @@ class DrawList {
     std::vector<Run> runs_;         // by state: blended ones last
     std::vector<Run> blendedRuns_;  // of blended ones, the farthest first
     std::vector<Command> arranged_;
+};
+
+/// What any of some eyes may see, found once for all of them (GpuScene::inSight).
+struct Sight {
+    struct Item {
+        DrawList::Seen seen;
+        glm::dmat4 viewFromMesh{1.0};
+    };
+    Pose pose;                // whose space boxes and matrices are in; the other eyes look the same way
+    std::vector<Item> items;  // in the scene's order
 };
 
 /// The coarsest level with at most that error, and as much of the next as lies between their errors; these increase.

@@ -70,14 +70,14 @@ class GpuScene {
     /// left is that of the surface which gives the pixel most of its light: of a blended one where its alpha is 0.5 or
     /// more.
     /// Levels of detail may be off by `detailPx` pixels of the view; 0: all at level 0.
-    /// Nothing outside of the sight is looked at.
+    /// `sight`: as see() takes it.
     void drawRadiance(const View& view, float exposure, double detailPx, const Sight* sight = nullptr) const;
     void drawDepth(const View& view, double detailPx) const;
 
-    /// What any point of the lens sees, from any of these eyes: found once for all of them.
+    /// What any point of the lens sees, from any of these eyes, one or more that look the same way.
     Sight inSight(std::span<const View> eyes, const Lens& lens) const;
-    /// What `view` sees or, with a lens, what any of its points does; nothing outside of the sight is looked at. Draws
-    /// nothing before it is arranged.
+    /// What `view` sees or, with a lens, what any of its points does; with the sight of this eye and others, of what is in
+    /// it. Draws nothing before it is arranged.
     void see(DrawList& list, const View& view, const Lens* lens, const Sight* sight = nullptr) const;
     /// Each seen item at a level of detail (in the order of list.seen(); DrawList::kHidden: not at all; none given:
     /// all at level 0), as often as a call will have matrices.
