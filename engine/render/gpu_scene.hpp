@@ -76,8 +76,8 @@ class GpuScene {
 
     /// What any point of the lens sees, from any of these eyes, one or more that look the same way.
     Sight inSight(std::span<const View> eyes, const Lens& lens) const;
-    /// What `view` sees or, with a lens, what any of its points does; with the sight of this eye and others, of what is in
-    /// it. Draws nothing before it is arranged.
+    /// What `view` sees or, with a lens, what any of its points does; with the sight of this eye and others, of what is
+    /// in it. Draws nothing before it is arranged.
     void see(DrawList& list, const View& view, const Lens* lens, const Sight* sight = nullptr) const;
     /// Each seen item at a level of detail (in the order of list.seen(); DrawList::kHidden: not at all; none given:
     /// all at level 0), as often as a call will have matrices.

@@ -42,7 +42,8 @@ class Technique {
     Technique& operator=(const Technique&) = delete;
 
     /// Linear radiance × exposure, RGBA16F or RGBA32F, view.width × view.height, a texture that filters and ends at its
-    /// edges; valid until the next call. Leaves depth test and blending off. Throws InputError for a stage it does not have, RunError where the GL fails.
+    /// edges; valid until the next call. Leaves depth test and blending off. Throws InputError for a stage it does not
+    /// have, RunError where the GL fails.
     virtual const Texture& draw(const EyeFrame& frame) = 0;
 
     /// How much of what was asked for the last picture has, 0..1; below 1 while it still refines.

@@ -27,10 +27,12 @@ double sphereArea(const View& view, const ViewBox& box);
 double detailLevel(double cocArea, double triangleArea, int mostLevel);
 
 /// A level's error (scene/simplify.hpp) may be that share of the CoC radius: simpler surfaces shrink and are shaded
-/// otherwise, which blur does not hide. With other values here, `bench_accumulate toys --quick --reference 384 --size
-/// 512x384 --diameter 12` (fishes: 256) gave SSIM at N = 32, S = 4, equal-quality speed-up and triangles left:
-/// toys 0.980, 4.0, 56 % with 0.03; 0.977, 3.4, 40 % with 0.1; 0.968, 2.7, 30 % with 0.3; 0.974, 2.0, 33 % without
-/// (1024x768). Fishes 0.965, 4.3, 49 % with 0.03; 0.956, 3.7, 29 % with 0.1.
+/// otherwise, which blur does not hide. With other values here `bench_accumulate SCENE --reference 1024` gave SSIM and
+/// seconds at N = 32, S = 4, with footprints as they were first drawn:
+/// toys   0.04: .9902, 5.1   0.02: .9908, 5.5   0.01: .9911, 5.5   level 0 for all: .9913, 5.8
+/// fishes 0.04: .9862, 7.5   0.02: .9889, 7.5   0.01: .9901, 7.9   level 0 for all: .9908, 9.1
+/// Larger ones, before there were footprints (toys, --quick --reference 384 --size 512x384 --diameter 12), SSIM and
+/// triangles left: 0.03: .980, 56 %; 0.1: .977, 40 %; 0.3: .968, 30 %.
 inline constexpr double kErrorOfBlur = 0.02;
 
 /// Of an item: eq. 3 with C = pi c² of its smallest CoC radius and, eq. 4, A = A_b / (N_t / 2): half of its triangles
@@ -40,7 +42,8 @@ inline constexpr double kErrorOfBlur = 0.02;
 double detailLevel(const View& view, const Lens& lens, const DrawList::Seen& seen);
 
 /// The level of one of `count` samples: the first (1 - fraction) of them take the finer one. Both parts of the Halton
-/// sequence cover the lens about evenly, so that a level comes and goes without a jump.
+/// sequence cover the lens about evenly, so that a level comes and goes without a jump: in as many steps as there are
+/// groups of samples that are drawn together.
 int levelOfSample(double level, int sample, int count);
 
 }  // namespace dioptre

@@ -1,14 +1,14 @@
 // What each lookup through the lens stands for, and the picture from their sums.
 // Sigg, Hadwiger 2005, "Fast third-order texture filtering" (GPU Gems 2): the B-spline by four bilinear fetches.
 //
-// N (S + 1) points of the lens share a disc of CoC radius c; each stands for pi c² / (N (S + 1)) px² of what it sees, not
-// for a pixel. Where that is more, the copies of what is seen do not join: grain, and dots in place of the disc of a
-// lamp. So all that points see is summed up in parts by such a footprint, and smoothed by it, once, whatever N is:
+// N (S + 1) points of the lens share a disc of CoC radius c; each stands for pi c² / (N (S + 1)) px² of what it sees,
+// not for a pixel. Where that is more, the copies of what is seen do not join: grain, and dots in place of the disc of
+// a lamp. So all that points see is summed up in parts by such a footprint, and smoothed by it, once, whatever N is:
 // - what is in focus, or has narrower footprints than kLeastVariance, stays as it is;
 // - what is in front of focus is smoothed with its coverage: nothing blurred less can lie before it, so both are at
 //   least as smooth as its CoC. What it leaves open is filled with the rest, in the rest's proportions;
 // - what is behind focus can be cut off by sharp edges: its colour is smoothed, its coverage stays;
-// - what is seen of and through blended surfaces, which leave no depth, stays as it is, the more so the more they cover.
+// - what is seen of and through blended surfaces, which leave no depth, stays as it is, the more the more they cover.
 // Smoothing is a cubic B-spline over a mipmap level's texels, two levels a side (shared/accumulate_types.h): what lies
 // between them goes to both, by its variance, so that nothing pops. Beyond the coarse one grain remains.
 #pragma once
