@@ -46,6 +46,7 @@ void SampleSum::allocate(int width, int height, int count, int levels) {
         parts.back().setLinear(mipmaps > 1);
     }
     std::vector<Framebuffer::Attachment> targets;
+    targets.reserve(parts.size());
     for (const Texture& part : parts) targets.push_back({&part});
     Framebuffer target(targets, nullptr, "sum of samples");
     parts_ = std::move(parts);
