@@ -294,7 +294,8 @@ TEST_F(RenderTest, LightThatIsCutIsSaidOnce) {
     ASSERT_EQ(linesOf(bright.err).size(), 1u) << bright.err;
     EXPECT_THAT(bright.err, HasSubstr("65504"));
     const Image picture = readImage(folder / "bright.pfm");
-    EXPECT_EQ(*std::max_element(picture.pixels.begin(), picture.pixels.end()), 65504.0f);
+    // Means of samples are rounded.
+    EXPECT_NEAR(*std::max_element(picture.pixels.begin(), picture.pixels.end()), 65504.0f, 0.1f);
     EXPECT_EQ(run({"render", "scene.gltf", "--exposure", "16", "--out", "fits.pfm"}).err, "");
 }
 
