@@ -176,7 +176,7 @@ TEST(SharingTest, ParentsShareTheirChildrenEvenly) {
     const SharedRenderings shared = shareRenderings(firstSamples(128), 0.2, 2);
     std::vector<int> children(shared.parents.size());
     for (const int parent : shared.parentOf) ++children[static_cast<std::size_t>(parent)];
-    EXPECT_THAT(children, testing::ElementsAreArray(std::vector<int>(16, 8)));
+    EXPECT_THAT(children, testing::ElementsAreArray(std::vector<int>(kLeastJitters, 128 / kLeastJitters)));
 }
 
 TEST(SubsamplesTest, WithTheirPrimariesTheyAreThePrefixOfTheSequence) {

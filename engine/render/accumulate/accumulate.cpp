@@ -18,8 +18,8 @@ namespace {
 // Cells of half a pixel: the smoother of the two published, and edges of what is sharp are what is looked at.
 constexpr int kGrid = 2;
 // Below that share of the samples, renderings that they share are worth their copies.
-constexpr double kWorthSharing = 0.5;
-constexpr int kMostSprites = 24;  // 12 bytes a pixel each
+constexpr double kWorthSharing = 0.65;
+constexpr int kMostSprites = 40;  // 12 bytes a pixel each
 // Beyond that CoC radius, px, more cells are taken than there are sprites, however many samples.
 constexpr double kMostSharedRadius = 2.0;
 
