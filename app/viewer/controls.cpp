@@ -53,7 +53,7 @@ void Viewer::listen() {
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
         viewerOf(w).woken_ = true;
-        ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+        viewerOf(w).gui_.mouse(button, action, mods, viewerOf(w).pointer_);
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
         viewerOf(w).woken_ = true;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "backends/imgui_impl_glfw.h"
 #include "backends/imgui_impl_opengl3.h"
@@ -61,7 +62,15 @@ void Gui::begin(double scale) {
     feedKeys();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // The way from there is the next frame's: a drag loses none of it.
+    if (const auto at = std::exchange(pressedAt_, std::nullopt))
+        ImGui::GetIO().MousePos = {static_cast<float>(at->x), static_cast<float>(at->y)};
     ImGui::NewFrame();
+}
+
+void Gui::mouse(int button, int action, int mods, glm::dvec2 pointer) {
+    if (action == GLFW_PRESS) pressedAt_ = pointer;
+    ImGui_ImplGlfw_MouseButtonCallback(window_, button, action, mods);
 }
 
 void Gui::end() {

@@ -1,6 +1,8 @@
 // Dear ImGui in a window: text, keys and mouse to it, its drawing over the picture.
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 struct GLFWwindow;
@@ -20,6 +22,10 @@ class Gui {
     /// Whether keys were told of that wait for another frame.
     bool keysWait() const { return !keys_.empty(); }
 
+    /// A button of the mouse went down or up, with the pointer there: a press is of what was there then, however far the
+    /// pointer came within a slow frame.
+    void mouse(int button, int action, int mods, glm::dvec2 pointer);
+
     /// A frame of the interface, its text `scale` times as large as usual. Between the two, ImGui's own functions.
     void begin(double scale);
     void end();
@@ -37,6 +43,7 @@ class Gui {
     GLFWwindow* window_;
     double scale_ = 0.0;
     std::vector<KeyEvent> keys_;
+    std::optional<glm::dvec2> pressedAt_;
 };
 
 }  // namespace dioptre
