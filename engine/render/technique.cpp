@@ -32,7 +32,7 @@ std::vector<Plan> measuredPlans() {
     std::vector<Plan> all;
     for (const TechniqueChoice choice : {TechniqueChoice::pinhole, TechniqueChoice::mipmap})
         for (const int msaa : {0, 4}) all.push_back({choice, msaa, {}, {}});
-    for (const auto& [samples, subsamples] : {std::pair(8, 8), {16, 4}, {32, 4}, {64, 0}})
+    for (const auto& [samples, subsamples] : {std::pair(8, 4), {8, 8}, {16, 4}, {32, 4}, {64, 0}})
         all.push_back({TechniqueChoice::accumulate, {}, samples, subsamples});
     for (const int samples : {4, 16, 64}) all.push_back({TechniqueChoice::reference, {}, samples, {}});
     return all;
