@@ -32,8 +32,8 @@ class MeasureTest : public ProgramTest {
     }
 };
 
-// Three blurs, near and far; pinhole and mipmap with msaa 0 and 4, accumulate with 8 and 16 samples, the reference with
-// 4 and 16 of 32.
+// Three blurs, near and far; pinhole and mipmap with msaa 0 and 4, accumulate with 8 samples (4 and 8 sub-samples) and 16,
+// the reference with 4 and 16 of 32.
 constexpr std::size_t kViews = 6, kRows = kViews * 9;
 
 TEST_F(MeasureTest, WritesWholeTablesAndAPage) {
