@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -21,7 +20,7 @@ constexpr int kGrid = 2;
 constexpr double kWorthSharing = 0.65;
 constexpr int kMostSprites = 40;  // 12 bytes a pixel each
 // Beyond that CoC radius, px, more cells are taken than there are sprites, however many samples.
-constexpr double kMostSharedRadius = 2.0;
+constexpr double kMostSharedRadius = 2.0, kSharedRadiusStep = 0.125;
 
 std::vector<LensSample> samplesOf(const EyeFrame& frame) {
     std::vector<LensSample> samples;
@@ -70,20 +69,29 @@ void Accumulate::makePlan(const EyeFrame& frame) {
     // Without a choice of layers there is nothing to draw sprites to.
     if (GpuScene::mostMatrices() < gpu::kMostMatrices) return;
 
-    // The most blurred item for which few enough renderings do: all that are less blurred share them, too.
-    std::vector<double> candidates;
     for (std::size_t i = 0; i < blur.size(); ++i)
-        if (!list_.seen()[i].blended && blur[i] < kMostSharedRadius) candidates.push_back(blur[i]);
-    std::sort(candidates.begin(), candidates.end(), std::greater<>());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+        plan_.shared[i] = !list_.seen()[i].blended && blur[i] <= sharing_.radius;
+    if (std::ranges::count(plan_.shared, true) > 0) plan_.sharing = sharing_.renderings;
+}
+
+void Accumulate::prepareSamples(const EyeFrame& frame) {
+    const SampleKey key{frame.samples, frame.subsamples, frame.firstSample, frame.lens.blades,
+                        frame.lens.bladeRotation};
+    if (key == sampleKey_) return;
+    sampleKey_ = key;
+    subsamples_ = subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample);
+    // Cells of the largest CoC that few enough renderings do for. With those of the most blurred item that shares them,
+    // all edges in focus flickered whenever that became another one or its blur changed: of the 0.0094 that
+    // `bench_accumulate pops` found in frames 40 to 68 of the focus pull, that left 0.0023.
+    sharing_ = {};
     const std::vector<LensSample> samples = samplesOf(frame);
     const auto most = std::min(kWorthSharing * frame.samples, double{kMostSprites});
-    const auto found = std::partition_point(candidates.begin(), candidates.end(), [&](double radius) {
-        return static_cast<double>(shareRenderings(samples, radius, kGrid).parents.size()) > most;
-    });
-    if (found == candidates.end()) return;
-    plan_.sharing = shareRenderings(samples, *found, kGrid);
-    for (std::size_t i = 0; i < blur.size(); ++i) plan_.shared[i] = !list_.seen()[i].blended && blur[i] <= *found;
+    for (double radius = kMostSharedRadius; radius >= 0.0; radius -= kSharedRadiusStep) {
+        SharedRenderings renderings = shareRenderings(samples, radius, kGrid);
+        if (static_cast<double>(renderings.parents.size()) > most) continue;
+        sharing_ = {radius, std::move(renderings)};
+        return;
+    }
 }
 
 std::vector<std::int8_t> Accumulate::levelsFor(bool shared, int first, int count, int total) const {
@@ -166,6 +174,7 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     anew.samplesNow = 0;
     sum_.begin(anew);
     frame.scene.see(list_, frame.view, nullptr);
+    prepareSamples(frame);
     makePlan(frame);
     sum_.divide(1, 1);
     const int levels = list_.seen().empty() ? 0 : std::ranges::max(list_.seen(), {}, &DrawList::Seen::levels).levels();
@@ -211,6 +220,7 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
     }
     assert(sum_.drawn() == 0 || plan_.levels.size() == list_.seen().size());
     if (sum_.drawn() == 0) {
+        prepareSamples(frame);
         makePlan(frame);
         sum_.divide(plan_.footprints.parts(), plan_.footprints.wide ? gpu::kCoarseLevel + 1 : 1);
         if (frame.subsamples == 0)
@@ -219,11 +229,6 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
             frame.log.skip("footprints", "points of the lens see all within a pixel of one another");
         sprites_.drawn = 0;
         if (plan_.sharing.parents.empty()) frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
-        const SubsampleKey key{frame.samples, frame.subsamples, frame.firstSample, frame.lens.blades,
-                               frame.lens.bladeRotation};
-        if (key != subsampleKey_)
-            subsamples_ = subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample);
-        subsampleKey_ = key;
     }
     sum_.refine(frame, layers, [&](int count) { drawGroup(frame, count); });
     if (plan_.footprints.wide) {

@@ -6,7 +6,8 @@
 // - what is blurred is drawn with as many triangles as its blur can tell from more (detail.hpp);
 // - what is hardly blurred is drawn once for all points of the lens that see it in the same places (sharing.hpp), into
 //   sprites that samples begin with. [JKLL13] groups the samples for each object, and copies each; here all objects up
-//   to one CoC share one grouping, so that thousands take one copy. Blended surfaces are drawn for each sample;
+//   to one CoC share one grouping, so that thousands take one copy, and it is the same in each frame, so that nothing
+//   flickers. Blended surfaces are drawn for each sample;
 // - each picture serves some more points of the lens around its own (subsample_blur.hpp);
 // - with these, what points see is smoothed by how far apart they see it (footprints.hpp). [JKLL13] has the plain mean.
 // Textures of what is blurred are read no finer than its samples lie apart. With no textures, level 0 for all, nothing
@@ -46,6 +47,8 @@ class Accumulate final : public Technique {
 
   private:
     const Texture& showLevels(const EyeFrame& frame);
+    /// What hangs on the lens's samples alone.
+    void prepareSamples(const EyeFrame& frame);
     void makePlan(const EyeFrame& frame);
     /// Those that are missing of the first `needed`.
     void drawSprites(const EyeFrame& frame, int needed);
@@ -59,14 +62,18 @@ class Accumulate final : public Technique {
     int arrangedFor_ = 0;                // matrices
     bool showsStage_ = false;
     Plan plan_;
-    struct SubsampleKey {
+    struct SampleKey {
         int samples = 0, each = 0, first = 0, blades = 0;
         Radians bladeRotation{0.0};
 
-        bool operator==(const SubsampleKey&) const = default;
+        bool operator==(const SampleKey&) const = default;
     };
+    SampleKey sampleKey_;  // what the two are of
     Subsamples subsamples_;
-    SubsampleKey subsampleKey_;  // what they are of
+    struct {
+        double radius = -1.0;  // the largest CoC's of what is shared, px
+        SharedRenderings renderings;
+    } sharing_;
     SampleLayers layers_{"lens samples"};
     struct {
         SampleLayers layers{"shared renderings"};
