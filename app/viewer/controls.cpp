@@ -51,9 +51,9 @@ void Viewer::listen() {
         viewerOf(w).woken_ = true;
         if (count > 0) viewerOf(w).dropped_.emplace_back(paths[0]);
     });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
         viewerOf(w).woken_ = true;
-        viewerOf(w).gui_.mouse(button, action, mods, viewerOf(w).pointer_);
+        viewerOf(w).gui_.button(button, action == GLFW_PRESS, viewerOf(w).pointer_);
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
         viewerOf(w).woken_ = true;
@@ -77,7 +77,11 @@ void Viewer::listen() {
         viewerOf(w).pointerMoved({x, y});
     });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { viewerOf(w).woken_ = true; });
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).woken_ = true; });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) {
+        viewerOf(w).woken_ = true;
+        viewerOf(w).windowMoved();
+    });
+    glfwSetWindowPosCallback(window, [](GLFWwindow* w, int, int) { viewerOf(w).windowMoved(); });
     glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { viewerOf(w).woken_ = true; });
 }
 
@@ -86,6 +90,14 @@ void Viewer::pointerMoved(glm::dvec2 to) {
     for (int button = 0; button < 3; ++button)
         if (glfwGetMouseButton(window_->handle(), button) == GLFW_PRESS) dragged_[button] += to - pointer_;
     pointer_ = to;
+}
+
+/// Maybe under a pointer that stayed, of which there is no event.
+void Viewer::windowMoved() {
+    GLFWwindow* window = window_->handle();
+    for (int button = 0; button < 3; ++button)
+        if (glfwGetMouseButton(window, button) == GLFW_PRESS) return;
+    glfwGetCursorPos(window, &pointer_.x, &pointer_.y);
 }
 
 void Viewer::takeWishes(Wish& wish) {
@@ -212,13 +224,15 @@ void Viewer::moveByHand(Wish& wish) {
         return;
     }
     for (int button = 0; button < 3; ++button) {
-        const glm::dvec2 moved = std::exchange(dragged_[button], glm::dvec2(0.0));
         if (ImGui::IsMouseClicked(button) && !io.WantCaptureMouse) {
             dragging_[button] = true;
             stance_.pivot = stance.pivot = pivot;  // it stays while the button is held
         }
         const bool drags = dragging_[button];
         if (!ImGui::IsMouseDown(button)) dragging_[button] = false;
+        // What was dragged before the interface came to the press waits with it.
+        if (!drags && gui_.inputWaits()) continue;
+        const glm::dvec2 moved = std::exchange(dragged_[button], glm::dvec2(0.0));
         if (!drags || moved == glm::dvec2(0.0)) continue;
         any = true;
         if (button == ImGuiMouseButton_Middle || (button == ImGuiMouseButton_Left && io.KeyShift))

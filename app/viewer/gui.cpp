@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
+#include <iterator>
 
 #include "backends/imgui_impl_glfw.h"
 #include "backends/imgui_impl_opengl3.h"
@@ -62,15 +62,8 @@ void Gui::begin(double scale) {
     feedKeys();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    // The way from there is the next frame's: a drag loses none of it.
-    if (const auto at = std::exchange(pressedAt_, std::nullopt))
-        ImGui::GetIO().MousePos = {static_cast<float>(at->x), static_cast<float>(at->y)};
+    feedMouse();
     ImGui::NewFrame();
-}
-
-void Gui::mouse(int button, int action, int mods, glm::dvec2 pointer) {
-    if (action == GLFW_PRESS) pressedAt_ = pointer;
-    ImGui_ImplGlfw_MouseButtonCallback(window_, button, action, mods);
 }
 
 void Gui::end() {
@@ -95,6 +88,26 @@ void Gui::feedKeys() {
         changed.push_back(event.key);
     }
     keys_ = std::move(later);
+}
+
+/// ImGui looks at the mouse once a frame: one press or release a frame, with the pointer where it was then, and before a
+/// release a frame there with the button still down. So a press is of what was there, and a drag goes all of its way,
+/// however much comes within a slow frame.
+void Gui::feedMouse() {
+    static_assert(std::size(decltype(held_){}) == ImGuiMouseButton_COUNT);
+    ImGuiIO& io = ImGui::GetIO();
+    if (!buttons_.empty()) {
+        const ButtonEvent event = buttons_.front();
+        if (event.down || event.pointer == pointer_) {
+            if (event.button < ImGuiMouseButton_COUNT) held_[event.button] = event.down;
+            buttons_.erase(buttons_.begin());
+        }
+        io.MousePos = {static_cast<float>(event.pointer.x), static_cast<float>(event.pointer.y)};
+        pointer_ = event.pointer;
+    } else {
+        pointer_ = {io.MousePos.x, io.MousePos.y};
+    }
+    std::copy(std::begin(held_), std::end(held_), io.MouseDown);
 }
 
 void Gui::setScale(double scale) {

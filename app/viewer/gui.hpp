@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <optional>
 #include <vector>
 
 struct GLFWwindow;
@@ -11,20 +10,18 @@ namespace dioptre {
 
 class Gui {
   public:
-    /// Takes over none of the window's callbacks: whoever does calls key() and, for the others, those of ImGui's GLFW
-    /// backend.
+    /// Takes over none of the window's callbacks: whoever does calls key(), button() and, for the others, those of
+    /// ImGui's GLFW backend.
     explicit Gui(GLFWwindow* window);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
     void key(int key, int scancode, int action, int mods) { keys_.push_back({key, scancode, action, mods}); }
-    /// Whether keys were told of that wait for another frame.
-    bool keysWait() const { return !keys_.empty(); }
-
-    /// A button of the mouse went down or up, with the pointer there: a press is of what was there then, however far the
-    /// pointer came within a slow frame.
-    void mouse(int button, int action, int mods, glm::dvec2 pointer);
+    /// A button of the mouse went down or up with the pointer there, in the window's coordinates.
+    void button(int button, bool down, glm::dvec2 pointer) { buttons_.push_back({button, down, pointer}); }
+    /// Whether some of what was told waits for another frame.
+    bool inputWaits() const { return !keys_.empty() || !buttons_.empty(); }
 
     /// A frame of the interface, its text `scale` times as large as usual. Between the two, ImGui's own functions.
     void begin(double scale);
@@ -37,13 +34,21 @@ class Gui {
     struct KeyEvent {
         int key, scancode, action, mods;
     };
+    struct ButtonEvent {
+        int button;
+        bool down;
+        glm::dvec2 pointer;
+    };
     void feedKeys();
+    void feedMouse();
     void setScale(double scale);
 
     GLFWwindow* window_;
     double scale_ = 0.0;
     std::vector<KeyEvent> keys_;
-    std::optional<glm::dvec2> pressedAt_;
+    std::vector<ButtonEvent> buttons_;
+    bool held_[5] = {};        // the buttons that ImGui knows
+    glm::dvec2 pointer_{0.0};  // of the last frame
 };
 
 }  // namespace dioptre

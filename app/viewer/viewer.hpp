@@ -79,6 +79,7 @@ class Viewer {
 
     // Controls
     void pointerMoved(glm::dvec2 to);
+    void windowMoved();
     void act(Action action, Wish& wish);
     void moveByHand(Wish& wish);
     bool moveLine();

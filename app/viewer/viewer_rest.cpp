@@ -25,14 +25,14 @@ constexpr double kSecondsUntilStill = 1.5;
 /// Sleeps while there is nothing to draw; false where there still is not.
 bool Viewer::waitForWork() {
     const bool bar = loader_.running() || (show_ && show_->makesLevels());
-    const bool busy =
-        woken_ || framesToDraw_ > 0 || gui_.keysWait() || wanted_ || (show_ && (!pictureIsStill() || instrumentsDue()));
+    const bool busy = woken_ || framesToDraw_ > 0 || gui_.inputWaits() || wanted_ ||
+                      (show_ && (!pictureIsStill() || instrumentsDue()));
     if (busy)
         glfwPollEvents();
     else
         glfwWaitEventsTimeout(bar || gazeInput_ ? kBarSeconds : kNapSeconds);
     if (gazeInput_) gazeInput_->read(glfwGetTime());
-    if (std::exchange(woken_, false)) framesToDraw_ = kFramesAfterEvent;
+    if (std::exchange(woken_, false) || gui_.inputWaits()) framesToDraw_ = kFramesAfterEvent;
     if (!notice_.empty() && glfwGetTime() > noticeUntil_) {
         notice_.clear();
         framesToDraw_ = std::max(framesToDraw_, 1);

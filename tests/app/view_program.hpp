@@ -34,7 +34,13 @@ class ViewTest : public ProgramTest {
                               "export XDG_CACHE_HOME=$PWD/cache; \"$1\" view " + scene +
                               R"( --size 160x120 --log log.csv & program=$!
 drop=$2
-grab() { "$grabber" "$window" "$1" || exit 93; } # what the window shows, to a PNG
+grab() { # what the window shows, to a PNG; it may be on its way to the screen
+    for try in $(seq 50); do
+        "$grabber" "$window" "$1" 2>/dev/null && return
+        sleep 0.1
+    done
+    exit 93
+}
 grabber=$3
 for try in $(seq 100); do
     window=$(xdotool search --onlyvisible --name '^Dioptre: .*focus' 2>/dev/null) && break

@@ -193,7 +193,7 @@ find swap-eyes
 click 150 99
 find ipd-mm
 xdotool mousemove --window "$window" 185 99; sleep 0.2
-xdotool mousedown 1 mousemove_relative 16 0; sleep 0.8
+xdotool mousedown 1; sleep 0.2; xdotool mousemove_relative 8 0; sleep 0.2; xdotool mousemove_relative 8 0; sleep 0.2
 xdotool mouseup 1; sleep 0.4
 xdotool key F12; there dioptre-0001.json
 xdotool key ctrl+z; sleep 0.4

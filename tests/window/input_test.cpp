@@ -2,6 +2,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "core/settings.hpp"
 #include "window_fixture.hpp"
 
 namespace dioptre::test {
@@ -97,6 +98,50 @@ TEST_F(InputTest, AnEditInThePanelReachesThePictureWithinTwoFrames) {
         driver.xdotool(std::string("type --delay 0 '") + edit + "'");
         EXPECT_LE(framesUntilShown(driver, "key Return"), 2) << edit;
     }
+}
+
+// Each line of input is there as a whole before the next frame, as much as a slow one lets come.
+TEST_F(InputTest, APressIsOfWhatWasThereAndADragGoesAllOfItsWay) {
+    ViewerDriver driver(viewCommand("scene.gltf"));
+    driver.xdotool("windowsize $W 640 480");
+    // Leaves one row in the panel: name, value, unit.
+    const auto find = [&](const std::string& name) {
+        driver.xdotool("key ctrl+f");
+        driver.draw(5);
+        driver.xdotool("type --delay 0 " + name);
+        driver.draw(5);
+    };
+    int pictures = 0;
+    const auto now = [&] {
+        driver.draw(8);
+        driver.xdotool("key F12");
+        const std::string name = fmt::format("dioptre-{:04}.json", ++pictures);
+        driver.until([&] { return std::filesystem::exists(name); }, "a picture");
+        Settings settings;
+        loadSettings(name, settings);
+        return settings.view;
+    };
+    find("ipd-mm");
+    driver.xdotool("mousemove --window $W 185 99 mousedown 1 mousemove_relative 16 0 mouseup 1");
+    const ViewSettings there = now();
+    EXPECT_NEAR(there.ipdMm, 63.0 + 16 * 0.1, 1e-6);
+    driver.xdotool("mousemove --window $W 195 99 mousedown 1 mousemove --window $W 215 400 mouseup 1");
+    const ViewSettings out = now();
+    EXPECT_NEAR(out.ipdMm, there.ipdMm + 20 * 0.1, 1e-6) << "from the panel onto the picture";
+    EXPECT_FALSE(out.pose.has_value());
+    driver.xdotool("mousemove --window $W 500 300 mousedown 3 mousemove --window $W 185 99 mouseup 3");
+    const ViewSettings in = now();
+    EXPECT_TRUE(in.pose.has_value()) << "from the picture onto the panel";
+    EXPECT_EQ(in.ipdMm, out.ipdMm);
+
+    find("swap-eyes");
+    driver.xdotool("mousemove --window $W 200 139");
+    driver.draw(5);
+    EXPECT_FALSE(now().swapEyes);
+    driver.xdotool("windowmove --relative -- $W 50 40");
+    driver.draw(5);
+    driver.xdotool("click 1");
+    EXPECT_TRUE(now().swapEyes) << "the window moved under the pointer";
 }
 
 TEST_F(InputTest, StepsBackAreTakenOneByOneHoweverFastTheyCome) {
