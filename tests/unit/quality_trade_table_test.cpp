@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -42,6 +43,31 @@ TEST(TradeTableTest, ShippedTablesAreWhole) {
         const TradeTable table = readTradeTable(fmt::format("{}/trade/{}.json", DIOPTRE_CONFIG, name));
         EXPECT_EQ(table.methods().size(), 8u) << name;
         for (const TradeTable::Row& row : table.rows) EXPECT_EQ(row.entries.size(), table.views.size()) << name;
+    }
+}
+
+// The smallest and the largest scene's times, the lowest SSIM of all scenes in the same blur and focus
+TEST(TradeTableTest, TheTableForUnknownRenderersIsMadeOfTheMeasuredOne) {
+    const auto read = [](const char* name) {
+        const std::string text = readFile(fmt::format("{}/trade/{}.json", DIOPTRE_CONFIG, name), 1 << 20);
+        return Json::parse(text, nullptr, true, true).at("plans");
+    };
+    const auto lens = [](const std::string& view) { return view.substr(view.find('-')); };
+    const Json measured = read("llvmpipe"), unknown = read("unknown");
+    ASSERT_EQ(measured.size(), unknown.size());
+    for (std::size_t i = 0; i < unknown.size(); ++i) {
+        EXPECT_EQ(unknown[i].at("technique"), measured[i].at("technique"));
+        EXPECT_EQ(unknown[i].at("dials"), measured[i].at("dials"));
+        for (const Json& entry : unknown[i].at("entries")) {
+            const std::string view = entry.at("view");
+            double time = 0.0, least = 1.0;
+            for (const Json& m : measured[i].at("entries")) {
+                if (m.at("view") == view) time = m.at("ms");
+                if (lens(m.at("view")) == lens(view)) least = std::min(least, m.at("ssim").get<double>());
+            }
+            EXPECT_NEAR(entry.at("ms").get<double>() / time, 1.0, 1e-3) << view;
+            EXPECT_NEAR(entry.at("ssim").get<double>(), least, 1e-4) << view;
+        }
     }
 }
 
