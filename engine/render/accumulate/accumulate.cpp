@@ -19,8 +19,9 @@ constexpr int kGrid = 2;
 // Below that share of the samples, renderings that they share are worth their copies.
 constexpr double kWorthSharing = 0.65;
 constexpr int kMostSprites = 40;  // 12 bytes a pixel each
-// Beyond that CoC radius, px, more cells are taken than there are sprites, however many samples.
-constexpr double kMostSharedRadius = 2.0, kSharedRadiusStep = 0.125;
+// CoC radii, px. From 65 samples on more cells are taken beyond it than there are sprites.
+constexpr double kMostSharedRadius = 2.0;
+constexpr double kSharedRadiusStep = 0.125;  // finer than it takes for another rendering
 
 std::vector<LensSample> samplesOf(const EyeFrame& frame) {
     std::vector<LensSample> samples;
@@ -65,33 +66,38 @@ void Accumulate::makePlan(const EyeFrame& frame) {
     if (frame.subsamples > 0)
         plan_.footprints =
             requiredFootprints(frame.view, frame.lens, frame.samples * (frame.subsamples + 1.0), list_.seen());
-    plan_.shared.assign(blur.size(), false);
-    // Without a choice of layers there is nothing to draw sprites to.
-    if (GpuScene::mostMatrices() < gpu::kMostMatrices) return;
-
-    for (std::size_t i = 0; i < blur.size(); ++i)
-        plan_.shared[i] = !list_.seen()[i].blended && blur[i] <= sharing_.radius;
-    if (std::ranges::count(plan_.shared, true) > 0) plan_.sharing = sharing_.renderings;
+    bool any = false;
+    for (std::size_t i = 0; i < blur.size(); ++i) {
+        plan_.shared.push_back(!list_.seen()[i].blended && blur[i] <= sharing_.radius);
+        any = any || plan_.shared.back();
+    }
+    if (any) plan_.sharing = sharing_.renderings;
 }
 
 void Accumulate::prepareSamples(const EyeFrame& frame) {
     const SampleKey key{frame.samples, frame.subsamples, frame.firstSample, frame.lens.blades,
                         frame.lens.bladeRotation};
     if (key == sampleKey_) return;
-    sampleKey_ = key;
+    sampleKey_ = {};
     subsamples_ = subsamples(frame.samples, frame.subsamples, frame.lens, frame.firstSample);
-    // Cells of the largest CoC that few enough renderings do for. With those of the most blurred item that shares them,
-    // all edges in focus flickered whenever that became another one or its blur changed: of the 0.0094 that
-    // `bench_accumulate pops` found in frames 40 to 68 of the focus pull, that left 0.0023.
-    sharing_ = {};
-    const std::vector<LensSample> samples = samplesOf(frame);
+    sharing_ = sharingOf(frame);
+    sampleKey_ = key;
+}
+
+/// Cells of the largest CoC that few enough renderings do for. With those of the most blurred item that shares them, all
+/// edges in focus flickered whenever that became another one or its blur changed: of the 0.0094 that
+/// `bench_accumulate pops` found in the focus pull, this left 0.0023.
+Accumulate::Sharing Accumulate::sharingOf(const EyeFrame& frame) {
     const auto most = std::min(kWorthSharing * frame.samples, double{kMostSprites});
+    // Without a choice of layers there is nothing to draw sprites to.
+    if (most < kLeastJitters || GpuScene::mostMatrices() < gpu::kMostMatrices) return {};
+    const std::vector<LensSample> samples = samplesOf(frame);
     for (double radius = kMostSharedRadius; radius >= 0.0; radius -= kSharedRadiusStep) {
         SharedRenderings renderings = shareRenderings(samples, radius, kGrid);
-        if (static_cast<double>(renderings.parents.size()) > most) continue;
-        sharing_ = {radius, std::move(renderings)};
-        return;
+        const std::size_t count = renderings.parents.size();
+        if (count >= kLeastJitters && static_cast<double>(count) <= most) return {radius, std::move(renderings)};
     }
+    return {};
 }
 
 std::vector<std::int8_t> Accumulate::levelsFor(bool shared, int first, int count, int total) const {
@@ -106,7 +112,7 @@ void Accumulate::drawSprites(const EyeFrame& frame, int needed) {
     if (needed <= sprites_.drawn) return;
     PassScope scope(frame.log, "sprites");
     const std::span<const LensSample> parents(plan_.sharing.parents);
-    // By steps, so that a lens that changes does not need others in each frame.
+    // By steps, so that samples that become more or fewer do not need others in each frame.
     constexpr int kStep = 8;
     sprites_.layers.resize(frame.view.width, frame.view.height,
                            (static_cast<int>(parents.size()) + kStep - 1) / kStep * kStep);
@@ -174,7 +180,6 @@ const Texture& Accumulate::showLevels(const EyeFrame& frame) {
     anew.samplesNow = 0;
     sum_.begin(anew);
     frame.scene.see(list_, frame.view, nullptr);
-    prepareSamples(frame);
     makePlan(frame);
     sum_.divide(1, 1);
     const int levels = list_.seen().empty() ? 0 : std::ranges::max(list_.seen(), {}, &DrawList::Seen::levels).levels();
@@ -228,7 +233,10 @@ const Texture& Accumulate::draw(const EyeFrame& frame) {
         else if (!plan_.footprints.wide)
             frame.log.skip("footprints", "points of the lens see all within a pixel of one another");
         sprites_.drawn = 0;
-        if (plan_.sharing.parents.empty()) frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
+        if (sharing_.radius < 0.0)
+            frame.log.skip("sprites", "too few points of the lens to share renderings, or no choice of layers");
+        else if (plan_.sharing.parents.empty())
+            frame.log.skip("sprites", "nothing is sharp enough for samples to share it");
     }
     sum_.refine(frame, layers, [&](int count) { drawGroup(frame, count); });
     if (plan_.footprints.wide) {

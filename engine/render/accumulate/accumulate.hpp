@@ -6,8 +6,8 @@
 // - what is blurred is drawn with as many triangles as its blur can tell from more (detail.hpp);
 // - what is hardly blurred is drawn once for all points of the lens that see it in the same places (sharing.hpp), into
 //   sprites that samples begin with. [JKLL13] groups the samples for each object, and copies each; here all objects up
-//   to one CoC share one grouping, so that thousands take one copy, and it is the same in each frame, so that nothing
-//   flickers. Blended surfaces are drawn for each sample;
+//   to one CoC share one grouping, so that thousands take one copy, and it hangs on the samples alone, so that edges in
+//   focus do not flicker while lens or view change. Blended surfaces are drawn for each sample;
 // - each picture serves some more points of the lens around its own (subsample_blur.hpp);
 // - with these, what points see is smoothed by how far apart they see it (footprints.hpp). [JKLL13] has the plain mean.
 // Textures of what is blurred are read no finer than its samples lie apart. With no textures, level 0 for all, nothing
@@ -46,9 +46,15 @@ class Accumulate final : public Technique {
     const Plan& plan() const { return plan_; }
 
   private:
+    struct Sharing {
+        double radius = -1.0;  // what has at most this CoC RADIUS is shared, px; < 0: nothing is
+        SharedRenderings renderings;
+    };
+
     const Texture& showLevels(const EyeFrame& frame);
     /// What hangs on the lens's samples alone.
     void prepareSamples(const EyeFrame& frame);
+    static Sharing sharingOf(const EyeFrame& frame);
     void makePlan(const EyeFrame& frame);
     /// Those that are missing of the first `needed`.
     void drawSprites(const EyeFrame& frame, int needed);
@@ -68,12 +74,9 @@ class Accumulate final : public Technique {
 
         bool operator==(const SampleKey&) const = default;
     };
-    SampleKey sampleKey_;  // what the two are of
+    SampleKey sampleKey_;  // what subsamples_ and sharing_ are of
     Subsamples subsamples_;
-    struct {
-        double radius = -1.0;  // the largest CoC's of what is shared, px
-        SharedRenderings renderings;
-    } sharing_;
+    Sharing sharing_;
     SampleLayers layers_{"lens samples"};
     struct {
         SampleLayers layers{"shared renderings"};
