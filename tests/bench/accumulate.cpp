@@ -8,8 +8,8 @@
 //
 //   bench_accumulate pops [SCENE]
 //
-// Whether levels of detail or shared renderings pop: a focus pull and a dolly of 2 s at 60 Hz, 320x240, N = 128; the SSIM of each frame to the
-// next, and the most that it is below that of the reference's frames. Default: the studio.
+// Whether levels of detail or shared renderings pop: a focus pull and a dolly of 2 s at 60 Hz, 320x240, N = 128; the SSIM
+// of each frame to the next, and the most that it is below that of the reference's frames. Default: the studio.
 #include <fmt/format.h>
 
 #include <cmath>

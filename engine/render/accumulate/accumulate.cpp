@@ -21,7 +21,7 @@ constexpr double kWorthSharing = 0.65;
 constexpr int kMostSprites = 40;  // 12 bytes a pixel each
 // CoC radii, px. From 65 samples on more cells are taken beyond it than there are sprites.
 constexpr double kMostSharedRadius = 2.0;
-constexpr double kSharedRadiusStep = 0.125;  // finer than it takes for another rendering
+constexpr double kSharedRadiusStep = 0.125;  // in which the largest is looked for
 
 std::vector<LensSample> samplesOf(const EyeFrame& frame) {
     std::vector<LensSample> samples;
