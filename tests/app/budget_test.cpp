@@ -11,6 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class BudgetTest : public ProgramTest {
   protected:
@@ -68,7 +69,7 @@ TEST_F(BudgetTest, AHeldPlanIsDrawnInEveryFrame) {
     EXPECT_TRUE(rows[6].starts_with("5,0.500000,\"mipmap, msaa 0\",mipmap,,")) << rows[6];
     const std::string page = read("run/index.html");
     EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
-    EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
+    EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
 }
 
 TEST_F(BudgetTest, TheSameRunGivesTheSamePictures) {
@@ -98,15 +99,15 @@ TEST_F(BudgetTest, TheGovernorChoosesWithinTheBudget) {
     EXPECT_EQ(frames, 12);
     EXPECT_TRUE(samples) << "ten seconds are enough for points of the lens: " << j.at("plans");
 
-    // What nothing fits into is missed by the least there is.
+    // Where nothing fits: what the table has as the cheapest, then what turns out to be. Which one that is, at this size,
+    // is a matter of chance; but not many points of the lens.
     ASSERT_EQ(budget({"--frames", "12", "--budget-ms", "0.001"}).status, 0);
     const Json missed = result();
     EXPECT_EQ(missed.at("missed"), 12);
-    int least = 0;
-    for (const auto& [plan, count] : missed.at("plans").items())
-        if (plan.find("2/8 size") != std::string::npos || plan.find("3/8 size") != std::string::npos)
-            least += count.get<int>();
-    EXPECT_GE(least, 6) << missed.at("plans");
+    for (const auto& [plan, count] : missed.at("plans").items()) EXPECT_THAT(plan, Not(HasSubstr("samples")));
+    const std::vector<std::string> rows = linesOf(read("run/frames.csv"));
+    ASSERT_EQ(rows.size(), 13u);
+    EXPECT_THAT(rows[1], HasSubstr("2/8 size"));
 }
 
 TEST_F(BudgetTest, AGazeThatIsGivenStaysThere) {
