@@ -221,6 +221,8 @@ void LodBuilder::State::write(const fs::path& file, const std::string& bytes) {
     const std::lock_guard lock(writing_);
     std::error_code ignored;
     fs::create_directories(folder_, ignored);
+    // A pipe would take it in, and not become a file.
+    if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) fs::remove(file, ignored);
     try {
         writeFileAtomically(file, bytes);
     } catch (const std::runtime_error& failure) {

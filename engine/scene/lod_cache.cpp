@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // To be raised with every change of the format, or of what simplify() makes.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::string_view kMagic = "DIOPTLOD";
 constexpr std::uint32_t kMostLevels = 64;  // halvings of any number there is
 
@@ -117,7 +117,10 @@ std::string lodBytes(const Primitive& primitive, std::span<const LodLevel> level
 
 std::optional<std::vector<LodLevel>> readLods(const fs::path& file, const Primitive& primitive) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored)) return std::nullopt;
+    const fs::file_status status = fs::status(file, ignored);
+    if (!fs::exists(status)) return std::nullopt;
+    // A pipe might never say anything.
+    if (!fs::is_regular_file(status)) throw InputError(file.string() + ": is no file");
     // Each level has fewer than the one before, and none more than three of four of its triangles: at most three times
     // the source
     const std::size_t most = primitive.indices.size() * 4 * sizeof(std::uint32_t) + 65536;

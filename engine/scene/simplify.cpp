@@ -56,6 +56,8 @@ constexpr float kMuchMore = 4.0f;
 // Ways to move a vertex that would make too large an error: the next ones, of higher cost, hardly make less.
 constexpr int kMostExcesses = 2;
 constexpr float kNever = std::numeric_limits<float>::max();
+// Of the diagonal of the bounds: no point is farther from their middle, so one point there would do as well.
+constexpr double kMostError = 0.5;
 
 double processorSeconds() {
     timespec now{};
@@ -133,6 +135,7 @@ class Chain {
         origin_ = glm::dvec3(request.primitive.bounds.empty() ? glm::vec3(0.0f) : request.primitive.bounds.centre());
         for (const glm::vec3& p : welded_.points)
             for (int k = 0; k < 3; ++k) reach_ = std::max(reach_, std::abs(static_cast<double>(p[k])));
+        mostError_ = static_cast<float>(kMostError * glm::length(glm::dvec3(request.primitive.bounds.size())));
         error_.assign(welded_.faces.size(), 0.0f);
         addQuadrics();
         welded_.twins = {};
@@ -196,6 +199,7 @@ class Chain {
     std::vector<float> own_;    // of each point: its quadric there
     std::vector<float> error_;  // of each face, see FanChange::errors
     float cap_ = 0.0f;          // no face's error gets larger for now
+    float mostError_ = 0.0f;    // nor ever
     std::vector<float> needs_;  // of each point: the least cap that may let it go; kNever before its neighbours change
     std::vector<std::uint32_t> points_;  // that are left
 };
@@ -454,16 +458,16 @@ void Chain::decimate(std::size_t target) {
     } while (alive_ > target && raiseCap((alive_ - target) / 2));
 }
 
-/// To what some of these vertices more, to be removed, need; false where no cap helps.
+/// To what some of these vertices more, to be removed, need; false where no cap helps, or none that may be.
 bool Chain::raiseCap(std::size_t vertices) {
     std::vector<float> needs;
     for (const std::uint32_t p : points_)
-        if (needs_[p] > cap_ && needs_[p] < kNever) needs.push_back(needs_[p]);
+        if (needs_[p] > cap_ && needs_[p] <= mostError_) needs.push_back(needs_[p]);
     if (needs.empty()) return false;
     // Some will be in each other's way, others find one once their neighbours are gone
     const auto enough = needs.begin() + static_cast<std::ptrdiff_t>(std::min(needs.size() - 1, vertices));
     std::nth_element(needs.begin(), enough, needs.end());
-    cap_ = std::max(cap_ * kLeastCapGrowth, *enough);
+    cap_ = std::min(std::max(cap_ * kLeastCapGrowth, *enough), mostError_);
     return true;
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -121,8 +122,14 @@ TEST_F(LodTest, WhatBendsHasNoLevels) {
 }
 
 TEST_F(LodTest, AreHandedOutWhileOthersAreMade) {
+    scene.meshes.push_back({"large", {test::torus(400, 200, 0.01)}});
     LodBuilder builder(scene, {{}, 1});
     std::vector<BuiltLevel> all;
+    while (all.empty() && !builder.finished()) all = builder.take();
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(all.front().mesh, scene.meshes.size() - 1) << "the largest first";
+    EXPECT_EQ(all.front().level, 1);
+    EXPECT_LT(all.size(), 3u) << "while the rest is made";
     double progress = 0.0;
     while (!builder.finished()) {
         for (BuiltLevel& level : builder.take()) all.push_back(std::move(level));
@@ -180,6 +187,11 @@ TEST_F(LodTest, BrokenCacheIsMadeAnew) {
         expectEqual(again, made);
         EXPECT_TRUE(cached(build(folder))) << "was not written";
     }
+    // A pipe that nobody writes to
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    expectEqual(build(folder), made);
+    EXPECT_TRUE(cached(build(folder)));
 }
 
 TEST_F(LodTest, WorksWithoutACacheThatCanBeWritten) {

@@ -216,18 +216,34 @@ TEST(SimplifyTest, SeamsKeepTheirSides) {
                 ASSERT_LT(most - least, 0.75) << "triangle " << i / 3 << " of " << level.indices.size() / 3;
             }
         }
-        // Each seam edge has a face on either side, between the same places, and shows 0 on one and 1 on the other.
-        std::map<std::pair<Place, Place>, int> seam;
-        for (std::size_t i = 0; i < level.indices.size(); ++i) {
-            const std::uint32_t a = level.indices[i], b = level.indices[i % 3 == 2 ? i - 2 : i + 1];
-            const auto& v = torus.vertices;
-            for (const float side : {0.0f, 1.0f})
-                if (v[a].uv.x == side && v[b].uv.x == side)
-                    seam[std::minmax(placeOf(torus, a), placeOf(torus, b))] += side == 0.0f ? 1 : 16;
+        // Each seam edge has a face on either side, between the same places, and shows 0 on one and 1 on the other; along
+        // it both show the same.
+        for (const int across : {0, 1}) {
+            using End = std::pair<Place, float>;  // with the coordinate along the seam
+            std::map<std::pair<End, End>, int> seam;
+            for (std::size_t i = 0; i < level.indices.size(); ++i) {
+                const std::uint32_t a = level.indices[i], b = level.indices[i % 3 == 2 ? i - 2 : i + 1];
+                const glm::vec2 &p = torus.vertices[a].uv, &q = torus.vertices[b].uv;
+                for (const float side : {0.0f, 1.0f})
+                    if (p[across] == side && q[across] == side)
+                        seam[std::minmax(End(placeOf(torus, a), p[1 - across]),
+                                         End(placeOf(torus, b), q[1 - across]))] += side == 0.0f ? 1 : 16;
+            }
+            EXPECT_GE(seam.size(), 3u);
+            for (const auto& [edge, sides] : seam) EXPECT_EQ(sides, 17);
         }
-        EXPECT_GE(seam.size(), 3u);
-        for (const auto& [edge, sides] : seam) EXPECT_EQ(sides, 17);
     }
+}
+
+// Texture coordinates that jump to and fro along a seam: whatever vertex of it goes, all that is seen there moves.
+TEST(SimplifyTest, ErrorsStaySmallBesideTheMesh) {
+    Primitive torus = test::torus(48, 24, 0.02);
+    for (Vertex& v : torus.vertices)
+        if (v.uv.x == 0.0f || v.uv.x == 1.0f) v.uv.y = static_cast<float>(std::lround(v.uv.y * 24.0f) % 2);
+    const auto levels = levelsOf(torus);
+    ASSERT_GE(levels.size(), 3u);
+    for (const LodLevel& level : levels)
+        EXPECT_LT(level.error, 0.501f * glm::length(torus.bounds.size())) << level.indices.size() / 3;
 }
 
 TEST(SimplifyTest, HardEdgesKeepTheirNormals) {
