@@ -1,6 +1,9 @@
 // dioptre render: one picture, or a sequence along head and gaze traces, headless.
 #include <fmt/format.h>
 
+#include <chrono>
+#include <optional>
+
 #include "commands.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -15,6 +18,9 @@
 namespace dioptre {
 
 namespace {
+
+// A picture that takes longer tells how far it is.
+constexpr std::chrono::seconds kSilence(3);
 
 std::filesystem::path normal(const std::filesystem::path& folder) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute("." / folder / ""));
@@ -43,12 +49,19 @@ void runRender(const Command& command) {
         input.time = command.settings.view.time;
         input.budgetMilliseconds = command.settings.render.budgetMs.value_or(kPictureMs);
         input.alone = true;
+        std::optional<ProgressLine> line;
+        input.drawn = [&line, start = std::chrono::steady_clock::now()](double share) {
+            if (std::chrono::steady_clock::now() - start < kSilence) return;
+            if (!line) line.emplace("drawing, percent", 100);
+            line->update(static_cast<std::size_t>(100.0 * share));
+        };
         shown.push_back(maker.make(input));
         // Levels of detail take long to build: only for a plan that draws them
         if (!named && usesLevels(shown.back().plan)) {
             addLevels();
             shown.back() = maker.make(input);
         }
+        line.reset();
         warnIfLimited(shown.back().lens);
         writeImage(command.out, maker.composed());
     } else {

@@ -64,7 +64,13 @@ void FrameMaker::drawNamed(const Input& input) {
     if (refines && refining_)
         samplesNow_ = samplesInTime(samplesNow_, report_.milliseconds, input.budgetMilliseconds, *named_.samples);
     std::vector<EyeFrame> frames = eyeFrames(eyes_, report_.passes);
-    for (EyeFrame& frame : frames) frame.samplesNow = refines ? samplesNow_ : 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        frames[i].samplesNow = refines ? samplesNow_ : 0;
+        if (input.drawn)
+            frames[i].drawn = [&, i](double share) {
+                input.drawn((static_cast<double>(i) + share) / static_cast<double>(frames.size()));
+            };
+    }
     pictures_.draw(named_, frames);
     refining_ = refines && pictures_.progress() < 1.0;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -73,6 +74,8 @@ class FrameMaker {
         bool alone = false;
         // `gaze` is an eye's, which blinks and darts; a pointer only leaves the picture.
         bool tracked = false;
+        // Told how much of the frame is drawn, 0..1, now and then, where a named technique averages samples.
+        std::function<void(double)> drawn = {};
     };
     /// What moves in the scene is where it is at the input's time, the start view's camera included.
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts

@@ -95,7 +95,12 @@ void SampleSum::divide(int parts, int levels) {
 void SampleSum::refine(const EyeFrame& frame, int most, const std::function<void(int)>& draw) {
     const int left = frame.samples - drawn_;
     const int end = drawn_ + (frame.samplesNow > 0 ? std::min(left, frame.samplesNow) : left);
-    while (drawn_ < end) draw(std::min(most, end - drawn_));
+    while (drawn_ < end) {
+        draw(std::min(most, end - drawn_));
+        if (!frame.drawn) continue;
+        glFinish();
+        frame.drawn(progress());
+    }
 }
 
 void SampleSum::add(const SampleLayers& layers, int count) {

@@ -1,9 +1,11 @@
 // The whole frame: eyes, focus, what is reported.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "frame/frame_maker.hpp"
@@ -274,6 +276,28 @@ FrameMaker::Input at(double time) {
     FrameMaker::Input input;
     input.time = time;
     return input;
+}
+
+TEST_F(FrameMakerGLTest, TellsHowMuchOfThePointsOfTheLensIsDrawn) {
+    const Scene scene = leftNearRightFar();
+    Settings settings = someSettings();
+    for (const TechniqueChoice technique : {TechniqueChoice::reference, TechniqueChoice::accumulate}) {
+        settings.render.technique = technique;
+        settings.render.samples = 70;  // more than one group
+        FrameMaker maker(scene, settings);
+        maker.make({});
+        const Image silent = maker.composed();
+        FrameMaker::Input input;
+        std::vector<double> told;
+        input.drawn = [&](double share) { told.push_back(share); };
+        maker.make(input);
+        ASSERT_GE(told.size(), 4u) << "groups of each eye";
+        EXPECT_TRUE(std::ranges::is_sorted(told));
+        EXPECT_GT(told.front(), 0.0);
+        EXPECT_EQ(std::ranges::count(told, 0.5), 1) << "one eye of two";
+        EXPECT_EQ(told.back(), 1.0);
+        EXPECT_EQ(maker.composed().pixels, silent.pixels);
+    }
 }
 
 TEST_F(FrameMakerGLTest, ChangedSettingsDrawWhatAFreshOneDraws) {
