@@ -29,7 +29,7 @@ std::string_view remark(const Primitive& primitive, const std::vector<BuiltLevel
     if (primitive.topology != Topology::triangles) return "points or lines have no levels";
     if (primitive.deformation) return "bends: no levels";
     const std::size_t last = levels.empty() ? primitive.triangleCount() : levels.back().data.indices.size() / 3;
-    return last > kFewestTriangles ? "seams, hard edges or borders allow no more" : "";
+    return last > kFewestTriangles ? "seams, hard edges, borders or small parts allow no more" : "";
 }
 
 std::string chainText(const Mesh& mesh, std::size_t index, const std::vector<BuiltLevel>& levels) {

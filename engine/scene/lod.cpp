@@ -89,7 +89,7 @@ class LodBuilder::State {
     std::vector<std::once_flag> sharedOnce_;                      // by mesh
     std::size_t triangles_ = 0;
     std::atomic<std::size_t> next_{0};
-    std::atomic<bool> stop_{false}, unwritable_{false};
+    std::atomic<bool> stop_{false}, unwritable_{false}, broken_{false};
 
     mutable std::mutex mutex_;  // of what follows
     std::mutex writing_;
@@ -211,7 +211,8 @@ bool LodBuilder::State::readInto(Chain& chain, const fs::path& file, const Primi
         for (LodLevel& level : *levels) hand(chain, std::move(level));
         return true;
     } catch (const InputError& problem) {
-        logWarning(fmt::format("{}: it is made anew", problem.what()));
+        if (!broken_.exchange(true))
+            logWarning(fmt::format("{}: it is made anew, as is what else is broken there", problem.what()));
         return false;
     }
 }

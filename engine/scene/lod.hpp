@@ -32,8 +32,8 @@ bool hasLods(const Primitive& primitive);
 /// Where the program keeps them: lods/ in its cache folder; empty where there is none.
 std::filesystem::path lodFolder();
 
-/// Threads work on one primitive each, the largest first; equal primitives are made once. A file of the cache that is
-/// broken is made anew, a cache that cannot be written is done without, each with a warning. Files of meshes that are
+/// Threads work on one primitive each, the largest first; equal primitives are made once. Files of the cache that are
+/// broken are made anew, a cache that cannot be written is done without, each with one warning. Files of meshes that are
 /// no longer there stay.
 class LodBuilder {
   public:

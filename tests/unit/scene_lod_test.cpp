@@ -194,6 +194,18 @@ TEST_F(LodTest, BrokenCacheIsMadeAnew) {
     EXPECT_TRUE(cached(build(folder)));
 }
 
+TEST_F(LodTest, ACacheBrokenAllOverIsSaidOnce) {
+    const Found wanted = build(folder);
+    for (const fs::path& file : files(folder)) std::ofstream(file, std::ios::binary) << "garbage";
+    testing::internal::CaptureStderr();
+    const Found made = build(folder);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_THAT(said, testing::StartsWith("warning: " + folder.string()));
+    expectEqual(made, wanted);
+    EXPECT_TRUE(cached(build(folder)));
+}
+
 TEST_F(LodTest, WorksWithoutACacheThatCanBeWritten) {
     const Found wanted = build({});
     std::ofstream(folder / "file") << "in the way";
