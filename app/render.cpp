@@ -21,6 +21,7 @@ namespace {
 
 // A picture that takes longer tells how far it is.
 constexpr std::chrono::seconds kSilence(3);
+constexpr std::size_t kPercent = 100;
 
 std::filesystem::path normal(const std::filesystem::path& folder) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute("." / folder / ""));
@@ -50,10 +51,10 @@ void runRender(const Command& command) {
         input.budgetMilliseconds = command.settings.render.budgetMs.value_or(kPictureMs);
         input.alone = true;
         std::optional<ProgressLine> line;
-        input.drawn = [&line, start = std::chrono::steady_clock::now()](double share) {
+        input.onDrawn = [&line, start = std::chrono::steady_clock::now()](double share) {
             if (std::chrono::steady_clock::now() - start < kSilence) return;
-            if (!line) line.emplace("drawing, percent", 100);
-            line->update(static_cast<std::size_t>(100.0 * share));
+            if (!line) line.emplace("drawing, percent", kPercent);
+            line->update(static_cast<std::size_t>(share * kPercent));
         };
         shown.push_back(maker.make(input));
         // Levels of detail take long to build: only for a plan that draws them

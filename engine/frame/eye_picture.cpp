@@ -18,7 +18,7 @@ const Texture& EyePicture::draw(const Plan& plan, const EyeFrame& frame) {
     sizedFrame.firstSample = frame.firstSample;
     sizedFrame.samplesNow = frame.samplesNow;
     sizedFrame.sight = frame.sight;
-    sizedFrame.drawn = frame.drawn;
+    sizedFrame.onDrawn = frame.onDrawn;
     return technique->draw(sizedFrame);
 }
 

@@ -18,6 +18,19 @@ std::vector<EyeFrame> FrameMaker::eyeFrames(std::span<const View> views, PassLog
     return frames;
 }
 
+/// Of the frame itself; valid as long as the input is.
+std::vector<EyeFrame> FrameMaker::eyeFrames(const Input& input) {
+    std::vector<EyeFrame> frames = eyeFrames(eyes_, report_.passes);
+    if (!input.onDrawn) return frames;
+    const auto eyes = static_cast<double>(frames.size());
+    double before = 0.0;
+    for (EyeFrame& frame : frames) {
+        frame.onDrawn = [&input, eyes, before](double share) { input.onDrawn((before + share) / eyes); };
+        before += 1.0;
+    }
+    return frames;
+}
+
 /// Whether the eye cannot see what is shown: in flight, or shut. A gaze that stays away is a lost tracker.
 bool FrameMaker::unseenNow(const Input& input) {
     constexpr double kLongestBlink = 0.4;  // seconds
@@ -63,14 +76,8 @@ void FrameMaker::drawNamed(const Input& input) {
     const bool refines = input.refines && named_.samples && input.budgetMilliseconds > 0.0;
     if (refines && refining_)
         samplesNow_ = samplesInTime(samplesNow_, report_.milliseconds, input.budgetMilliseconds, *named_.samples);
-    std::vector<EyeFrame> frames = eyeFrames(eyes_, report_.passes);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        frames[i].samplesNow = refines ? samplesNow_ : 0;
-        if (input.drawn)
-            frames[i].drawn = [&, i](double share) {
-                input.drawn((static_cast<double>(i) + share) / static_cast<double>(frames.size()));
-            };
-    }
+    std::vector<EyeFrame> frames = eyeFrames(input);
+    for (EyeFrame& frame : frames) frame.samplesNow = refines ? samplesNow_ : 0;
     pictures_.draw(named_, frames);
     refining_ = refines && pictures_.progress() < 1.0;
 }

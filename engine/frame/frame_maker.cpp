@@ -294,7 +294,7 @@ const FrameReport& FrameMaker::make(const Input& input) {
         // A picture drawn again, with levels of detail: by the plan that asked for them
         const bool unseen = unseenNow(input);
         if (!again) report_.decision = decide(input, unseen);
-        const auto drawn = pictures_.draw(*report_.decision, eyeFrames(eyes_, report_.passes), step, unseen);
+        const auto drawn = pictures_.draw(*report_.decision, eyeFrames(input), step, unseen);
         report_.plan = drawn.plan;
         report_.foreseenMs = drawn.foreseenMs;
         drew = drawn.as;

@@ -74,8 +74,9 @@ class FrameMaker {
         bool alone = false;
         // `gaze` is an eye's, which blinks and darts; a pointer only leaves the picture.
         bool tracked = false;
-        // Told how much of the frame is drawn, 0..1, now and then, where a named technique averages samples.
-        std::function<void(double)> drawn = {};
+        // Told the share of the frame that is drawn, 0..1, now and then, where samples are averaged; of two plans that
+        // fade, of each.
+        std::function<void(double)> onDrawn = {};
     };
     /// What moves in the scene is where it is at the input's time, the start view's camera included.
     /// Draws both eyes' pictures; finished when it returns. The first frame, and each after a jump back in time, starts
@@ -135,6 +136,7 @@ class FrameMaker {
     Decision decide(const Input& input, bool unseen);
     bool unseenNow(const Input& input);
     std::vector<EyeFrame> eyeFrames(std::span<const View> views, PassLog& log);
+    std::vector<EyeFrame> eyeFrames(const Input& input);
     void prepare();
     void lookAhead();
     void drawNamed(const Input& input);

@@ -97,9 +97,10 @@ void SampleSum::refine(const EyeFrame& frame, int most, const std::function<void
     const int end = drawn_ + (frame.samplesNow > 0 ? std::min(left, frame.samplesNow) : left);
     while (drawn_ < end) {
         draw(std::min(most, end - drawn_));
-        if (!frame.drawn) continue;
-        glFinish();
-        frame.drawn(progress());
+        if (frame.onDrawn) {
+            glFinish();  // or it would be told of what is but queued
+            frame.onDrawn(progress());
+        }
     }
 }
 

@@ -33,8 +33,8 @@ struct EyeFrame {
     int samplesNow = 0;
     double detailPx = 0.0;         // pinhole, mipmap: what levels of detail may be off, pixels of the view; 0: level 0
     const Sight* sight = nullptr;  // GpuScene::inSight of all eyes' frames; none: this view looks for itself
-    // reference, accumulate: told how much of the samples is drawn, 0..1, each time some more are; or none
-    std::function<void(double)> drawn = {};
+    // reference, accumulate: told the share of the samples that is drawn, 0..1, after each group; empty: nobody is
+    std::function<void(double)> onDrawn = {};
 };
 
 class Technique {

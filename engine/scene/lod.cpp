@@ -212,7 +212,7 @@ bool LodBuilder::State::readInto(Chain& chain, const fs::path& file, const Primi
         return true;
     } catch (const InputError& problem) {
         if (!broken_.exchange(true))
-            logWarning(fmt::format("{}: it is made anew, as is what else is broken there", problem.what()));
+            logWarning(fmt::format("{}: it is made anew, as are all others that are broken", problem.what()));
         return false;
     }
 }
@@ -222,7 +222,7 @@ void LodBuilder::State::write(const fs::path& file, const std::string& bytes) {
     const std::lock_guard lock(writing_);
     std::error_code ignored;
     fs::create_directories(folder_, ignored);
-    // A pipe would take it in, and not become a file.
+    // What is no file goes: to open a pipe that nobody reads takes for ever.
     if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) fs::remove(file, ignored);
     try {
         writeFileAtomically(file, bytes);

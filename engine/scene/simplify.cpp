@@ -135,7 +135,9 @@ class Chain {
         origin_ = glm::dvec3(request.primitive.bounds.empty() ? glm::vec3(0.0f) : request.primitive.bounds.centre());
         for (const glm::vec3& p : welded_.points)
             for (int k = 0; k < 3; ++k) reach_ = std::max(reach_, std::abs(static_cast<double>(p[k])));
-        mostError_ = static_cast<float>(kMostError * glm::length(glm::dvec3(request.primitive.bounds.size())));
+        const Bounds& bounds = request.primitive.bounds;
+        const double diagonal = glm::distance(glm::dvec3(bounds.min), glm::dvec3(bounds.max));
+        mostError_ = static_cast<float>(std::min(kMostError * diagonal, double{kNever}));
         error_.assign(welded_.faces.size(), 0.0f);
         addQuadrics();
         welded_.twins = {};
@@ -199,7 +201,7 @@ class Chain {
     std::vector<float> own_;    // of each point: its quadric there
     std::vector<float> error_;  // of each face, see FanChange::errors
     float cap_ = 0.0f;          // no face's error gets larger for now
-    float mostError_ = 0.0f;    // nor ever
+    float mostError_ = 0.0f;    // the largest that cap_ may be
     std::vector<float> needs_;  // of each point: the least cap that may let it go; kNever before its neighbours change
     std::vector<std::uint32_t> points_;  // that are left
 };
@@ -458,11 +460,11 @@ void Chain::decimate(std::size_t target) {
     } while (alive_ > target && raiseCap((alive_ - target) / 2));
 }
 
-/// To what some of these vertices more, to be removed, need; false where no cap helps, or none that may be.
+/// To what some of these vertices more, to be removed, need; false where no cap up to mostError_ helps.
 bool Chain::raiseCap(std::size_t vertices) {
     std::vector<float> needs;
     for (const std::uint32_t p : points_)
-        if (needs_[p] > cap_ && needs_[p] <= mostError_) needs.push_back(needs_[p]);
+        if (needs_[p] > cap_ && needs_[p] <= mostError_ && needs_[p] < kNever) needs.push_back(needs_[p]);
     if (needs.empty()) return false;
     // Some will be in each other's way, others find one once their neighbours are gone
     const auto enough = needs.begin() + static_cast<std::ptrdiff_t>(std::min(needs.size() - 1, vertices));

@@ -29,9 +29,9 @@ struct SimplifyRequest {
     std::function<bool()> stopped;        // asked often; the rest is not made once it says so
 };
 
-/// Each level has half the triangles of the one before, or what is left where not so many can go; a chain ends at
-/// kFewestTriangles, or where a level would keep more than three of four triangles or be off by more than half
-/// the diagonal of the primitive's bounds. What stays as it is:
+/// Each level has half the triangles of the one before, or what is left where not so many can go; but for rounding none
+/// is off by more than half the diagonal of the primitive's bounds. A chain ends at kFewestTriangles, or where a level
+/// would keep more than three of four triangles. What stays as it is:
 ///   vertices, with all their attributes: a level has fewer of them;
 ///   the sides of a seam (of texture coordinates or normals), which share its vertices at every level; a seam loses
 ///     vertices only along itself, and ends where it did;
