@@ -74,8 +74,8 @@ void runRender(const Command& command) {
                                        command.settings.render.budgetMs.value_or(1000.0 / command.fps), command.out,
                                        command.settings.view.time, interrupted});
         if (!shown.empty())
-            logInfo(fmt::format("{} frames in {}, to look at: {}", shown.size(), command.out.string(),
-                                (command.out / "index.html").string()));
+            logInfo(fmt::format("{} frame{} in {}, to look at: {}", shown.size(), shown.size() == 1 ? "" : "s",
+                                command.out.string(), (command.out / "index.html").string()));
     }
     if (!command.log.empty()) writeFileAtomically(command.log, frameLogCsv(shown));
     if (shown.size() < static_cast<std::size_t>(command.frames))

@@ -42,6 +42,9 @@ const Format* findFormat(const std::filesystem::path& path) {
 
 const Format& formatOf(const std::filesystem::path& path) {
     if (const Format* format = findFormat(path)) return *format;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        throw InputError(path.string() + ": is a folder, a file is expected");
     throw InputError(path.string() + ": unknown picture format " + quote(path.extension().string()) +
                      ", known are .png, .exr, .pfm");
 }

@@ -214,6 +214,7 @@ TEST_F(RenderTest, AFileThatCannotBeWrittenIsNotThere) {
     expectRefused(run({"render", "scene.gltf"}), {"--out"});
     expectRefused(into("absent/x.png"), {"absent/x.png", "does not exist"});
     expectRefused(into("x.jpeg"), {"x.jpeg", ".png"});
+    expectRefused(into("."), {".: is a folder"});
     expectRefused(into("scene.gltf/x.png"), {"scene.gltf"});
     expectRefused(into("scene.gltf", {"--frames", "2"}), {"scene.gltf"});
     expectRefused(into("x.png", {"--log", "absent/log.csv"}), {"absent/log.csv"});
@@ -320,6 +321,7 @@ TEST_F(RenderTest, ComparesPictures) {
     expectRefused(run({"compare", "left.png"}), {"two pictures"});
     expectRefused(run({"compare", "left.png", "absent.png"}), {"absent.png"});
     expectRefused(run({"compare", "left.png", "scene.gltf"}), {"scene.gltf"});
+    expectRefused(run({"compare", "left.png", "."}), {".: is a folder"});
 }
 
 }  // namespace
