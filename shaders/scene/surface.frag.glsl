@@ -68,8 +68,10 @@ void main() {
 #ifdef EMISSIVE
     color += material.emissive.rgb * readTexture(emissiveTexture, uvOf(kEmissive)).rgb;
 #endif
-    // Half floats end at 65504; NaN (0/0 in a degenerate triangle) becomes 0 by the order of max's arguments.
-    radiance = vec4(min(max(vec3(0.0), color * exposure), vec3(65504.0)), 1.0);
+    // Half floats end at 65504; NaN (0/0 in a degenerate triangle) becomes black by the order of max's arguments. Black
+    // is less than any half float, but not 0: --show lod makes all shine.
+    const float kBlack = 1e-24;
+    radiance = vec4(min(max(vec3(kBlack), color) * exposure, vec3(65504.0)), 1.0);
 #ifdef BLEND
     radiance *= baseColor.a;  // premultiplied: what is behind keeps 1 - alpha
 #endif

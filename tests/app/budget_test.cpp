@@ -11,7 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 class BudgetTest : public ProgramTest {
   protected:
@@ -69,7 +68,7 @@ TEST_F(BudgetTest, AHeldPlanIsDrawnInEveryFrame) {
     EXPECT_TRUE(rows[6].starts_with("5,0.500000,\"mipmap, msaa 0\",mipmap,,")) << rows[6];
     const std::string page = read("run/index.html");
     EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
-    EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+    EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
 }
 
 TEST_F(BudgetTest, TheSameRunGivesTheSamePictures) {

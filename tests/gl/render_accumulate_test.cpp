@@ -265,6 +265,19 @@ TEST_F(AccumulateGLTest, WhatIsBlurredIsDrawnAtItsLevel) {
     EXPECT_GT(meanColor(draw(scene, shot, 16, 0), 115, 50, 125, 100).x, 0.99) << "in focus it is whole";
 }
 
+TEST_F(AccumulateGLTest, WhatIsBlackShowsItsLevelToo) {
+    Shot shot;
+    SceneBuilder b;
+    b.wall(6.0, b.unlit({0.0f, 0.5f, 0.0f}));
+    const GpuScene scene(b.scene());
+    shot.show.stage = ShowChoice::lod;
+    const glm::dvec3 white = pixelAt(test::draw(technique_, scene, shot), 75, 70);
+    // The mean with the picture
+    EXPECT_NEAR(white.r, 0.5, 1e-3);
+    EXPECT_NEAR(white.g, 0.75, 1e-3);
+    EXPECT_NEAR(white.b, 0.5, 1e-3);
+}
+
 /// Draws a scene through the middle of the lens, and looks up other points of it.
 class SubsampleGLTest : public GlTest {
   protected:
